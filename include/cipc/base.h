@@ -1,0 +1,81 @@
+/* cipc/base.h - status codes, error text, checked memory.
+ * Floor 0. Everything above uses these; they use nothing of cipc. */
+#ifndef CIPC_BASE_H
+#define CIPC_BASE_H
+
+#include <stddef.h>
+
+/* Every diagnostic of cipc, once: name, number, default remedy.
+ * The thousands digit is the exit status of the program: 1 the computation failed, 2 bad usage or bad input, 3 a verdict failed. */
+#define CIPC_DIAGNOSTICS(X)                                                                                            \
+    X(OUT_OF_MEMORY, 1001, "use a smaller scene or a machine with more memory")                                       \
+    X(IO, 1002, "check that the path exists, is writable and has space left")                                         \
+    X(NOT_CONVERGED, 1003, "raise the iteration cap, loosen newton.tolerance or shorten time_step")                   \
+    X(FACTORIZATION, 1004, "check masses and stiffnesses for extreme ratios")                                         \
+    X(NO_PROGRESS, 1005, "shorten time_step, or check the scripted motion for an impossible squeeze")                 \
+    X(USAGE, 2001, "see cipc --help")                                                                                 \
+    X(SYNTAX, 2002, "mend the JSON at the place named")                                                               \
+    X(UNKNOWN_KEY, 2003, "remove the key or use the name suggested")                                                  \
+    X(WRONG_TYPE, 2004, "give a value of the type named")                                                             \
+    X(OUT_OF_RANGE, 2005, "give a value inside the range named")                                                      \
+    X(MISSING_KEY, 2006, "add the key named")                                                                         \
+    X(MISSING_FILE, 2007, "check the path; it is taken relative to the scene file")                                   \
+    X(BAD_MESH, 2008, "mend the mesh at the line named")                                                              \
+    X(INITIAL_INTERSECTION, 2009, "move the bodies apart in the scene")                                               \
+    X(INITIAL_GAP, 2010, "move the bodies apart or lower their offset")                                               \
+    X(INITIAL_STRAIN, 2011, "start from a less stretched shape or raise the limit")                                   \
+    X(NOT_RESUMABLE, 2012, "start afresh in another output folder")                                                   \
+    X(VIOLATED_INTERSECTION, 3001, "a defect of the solver: please report it with the state written")                 \
+    X(VIOLATED_GAP, 3002, "a defect of the solver: please report it with the state written")                          \
+    X(VIOLATED_STRAIN, 3003, "a defect of the solver: please report it with the state written")                       \
+    X(VIOLATED_INVERSION, 3004, "a defect of the solver: please report it with the state written")                    \
+    X(VIOLATED_ENERGY, 3006, "a defect of the solver: please report it with the state written")                       \
+    X(VIOLATED_FINITE, 3008, "a defect of the solver: please report it with the state written")                       \
+    X(INDETERMINATE, 3009, "the exact arithmetic gave up at its precision cap: please report the state written")
+
+typedef enum cipc_status {
+    CIPC_OK = 0,
+#define CIPC_X(name, number, remedy) CIPC_E_##name = (number),
+    CIPC_DIAGNOSTICS(CIPC_X)
+#undef CIPC_X
+} cipc_status;
+
+/* What went wrong, where, and how to mend it. Caller-owned; a function that returns a status other than CIPC_OK has filled it.
+ * A NULL cipc_error* is allowed everywhere: the status alone then tells. */
+typedef struct cipc_error {
+    cipc_status status;
+    char place[512];  /* "file.json:12:7 bodies.cloth.thickness", "step 12", ... */
+    char what[768];   /* one clause, no newline */
+    char remedy[256]; /* one clause, no newline */
+} cipc_error;
+
+/* Name ("OUT_OF_RANGE"), default remedy and exit status (0..3) of a status. Never NULL. */
+const char *cipc_status_name(cipc_status status);
+const char *cipc_status_remedy(cipc_status status);
+int cipc_status_exit(cipc_status status);
+
+/* Fill *error (if not NULL) with the status, its default remedy, a place and a printf-formatted text, and return the status.
+ * Newlines and control characters in the text are replaced by spaces, so that a message stays one line. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 4, 5)))
+#endif
+cipc_status cipc_fail(cipc_error *error, cipc_status status, const char *place, const char *format, ...);
+
+/* Replace the remedy of an error that cipc_fail has just filled. Returns error->status. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+cipc_status cipc_fail_remedy(cipc_error *error, const char *format, ...);
+
+/* Zeroed array of count elements of the given size; NULL on overflow or lack of memory. count 0 gives a valid pointer.
+ * All memory of the library comes from these three (base/memory.c is the only caller of malloc and friends), so a test that
+ * links with -Wl,--wrap=calloc,--wrap=realloc can let the N-th one fail. */
+void *cipc_alloc(size_t count, size_t size);
+/* Resize to count elements (new ones are not zeroed); NULL on failure, then the old block stays valid. */
+void *cipc_realloc(void *block, size_t count, size_t size);
+void cipc_free(void *block);
+
+/* Version of the library, "0.1.0". */
+const char *cipc_version(void);
+
+#endif

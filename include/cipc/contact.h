@@ -1,0 +1,91 @@
+/* cipc/contact.h - broad phase, active contact stencils, additive CCD, barrier stiffness, lagged friction.
+ * Floor 4. */
+#ifndef CIPC_CONTACT_H
+#define CIPC_CONTACT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include "cipc/base.h"
+#include "cipc/energy.h"
+#include "cipc/geometry.h"
+#include "cipc/model.h"
+
+/* What may touch: every node against every triangle and every edge against every edge that share no node and are not wholly Dirichlet
+ * (SPEC D.1). Indices into the model's nodes, triangles and edges. */
+typedef struct cipc_candidates {
+    int point_triangle_count, edge_edge_count;
+    int (*point_triangle)[2];  /* node, triangle */
+    int (*edge_edge)[2];       /* edge a < edge b */
+    int point_triangle_capacity, edge_edge_capacity;
+} cipc_candidates;
+void cipc_candidates_free(cipc_candidates *candidates);
+
+/* Broad phase: box trees over triangles and edges, kept between calls. */
+typedef struct cipc_broad_phase cipc_broad_phase;
+cipc_status cipc_broad_phase_create(cipc_broad_phase **broad_phase, const cipc_model *model, cipc_error *error);
+void cipc_broad_phase_destroy(cipc_broad_phase *broad_phase);
+/* A superset of all pairs that come within xi_pair + reach of one another while every node moves on the straight line x + t p,
+ * t in [0, t_max]; p may be NULL (no motion). is_dirichlet (may be NULL): pairs of four Dirichlet nodes are skipped.
+ * The order of the answer depends on the model and the positions only, never on `threads`. */
+cipc_status cipc_broad_phase_find(cipc_broad_phase *broad_phase, const cipc_model *model, const double *x, const double *p, double t_max,
+                                  double reach, const bool *is_dirichlet, int threads, cipc_candidates *candidates, cipc_error *error);
+
+/* One active contact: a stencil of `count` global nodes with its barrier parameters. */
+typedef struct cipc_contact {
+    cipc_energy_id energy;       /* CIPC_ENERGY_BARRIER_... */
+    int count;                   /* 2, 3, 4 */
+    int nodes[4];                /* unused: -1 */
+    cipc_contact_barrier barrier;
+    int multiplicity;            /* how many primitive pairs it stands for */
+} cipc_contact;
+
+typedef struct cipc_contact_set {
+    int count, capacity;
+    cipc_contact *contacts;      /* in a fixed order */
+    int total_multiplicity;
+    double min_gap;              /* min over the set of d - xi, m; INFINITY if empty */
+    int min_gap_contact;         /* index, or -1 */
+} cipc_contact_set;
+void cipc_contact_set_free(cipc_contact_set *set);
+/* d - xi of a contact at positions x of the whole model, m. */
+double cipc_contact_gap(const cipc_contact *contact, const double *x);
+
+typedef struct cipc_contact_options {
+    double dhat;                 /* m */
+    bool area_weights;           /* weight = area of the primitive / mean area (dimensionless); false: 1 (as the released code) */
+    bool merge_directed;         /* merge stencils only if their nodes come in the same order (as the released code: more stencils, same energy) */
+} cipc_contact_options;
+cipc_contact_options cipc_contact_options_default(void);
+
+/* Active stencils at x among the candidates: d < xi + dhat, classified to closest features, equal point-point and point-edge stencils
+ * merged (weights added), near-parallel edge-edge stencils mollified (SPEC D.1-D.3). stiffness goes into each barrier. */
+cipc_status cipc_contact_set_build(cipc_contact_set *set, const cipc_model *model, const cipc_candidates *candidates, const double *x,
+                                   double stiffness, const cipc_contact_options *options, int threads, cipc_error *error);
+
+/* Additive CCD (SPEC C.5, Algorithm 1). x[n], p[n]: the stencil's positions and displacements. thickness xi, slackness s in (0,1),
+ * t_max in (0,1]. Returns the largest step certified by the algorithm: t_max if no contact is met before it. kind as in geometry.h. */
+typedef struct cipc_ccd_options {
+    double slackness;   /* s */
+    int max_iterations;
+    bool gap_first;     /* the paper's order of tests, with its early hits just beyond t_max (as the released code) */
+} cipc_ccd_options;
+cipc_ccd_options cipc_ccd_options_default(void);
+typedef struct cipc_ccd_result { double toi; bool hit; int iterations; bool capped; } cipc_ccd_result;
+cipc_ccd_result cipc_additive_ccd(cipc_pair_kind kind, const double *x, const double *p, double thickness, double t_max,
+                                  const cipc_ccd_options *options);
+
+/* The smallest step of cipc_additive_ccd over all candidates on the path x + t p, t in [0, t_max]; the limiting stencil's nodes and kind in
+ * *nodes and *edge_edge (may be NULL; -1 if nothing limits). Thickness is each pair's xi. */
+double cipc_candidates_ccd(const cipc_model *model, const cipc_candidates *candidates, const double *x, const double *p, double t_max,
+                           const cipc_ccd_options *options, int threads, int nodes[4], bool *edge_edge);
+
+/* Barrier stiffness of SPEC D.4 (bounding-box rule) or C.7 (as released). */
+typedef struct cipc_stiffness_range { double minimum, maximum; } cipc_stiffness_range;
+cipc_stiffness_range cipc_barrier_stiffness_range(double bounding_box_diagonal, double mean_mass, double offset, double dhat);
+cipc_stiffness_range cipc_barrier_stiffness_range_released(double mean_mass, double dhat);
+
+/* Lagged friction of a contact at x (= x^n): fills *friction and returns true; false for mollified stencils, zero coefficient or zero
+ * normal force (SPEC D.6). mu is the pair's coefficient; eps = eps_v h. x and start are whole-model arrays. */
+bool cipc_friction_from_contact(cipc_friction *friction, const cipc_contact *contact, const double *x, const double *start, double mu, double eps);
+
+#endif

@@ -1,0 +1,135 @@
+/* cipc/output.h - what a run writes: HDF5 + XDMF trajectory, OBJ, statistics, summary, progress line, pictures.
+ * Floor 7. Formats, field by field with units, in docs/formats.md. */
+#ifndef CIPC_OUTPUT_H
+#define CIPC_OUTPUT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdio.h>
+#include "cipc/base.h"
+#include "cipc/implicit.h"
+#include "cipc/invariant.h"
+#include "cipc/model.h"
+
+/* ---- Trajectory (HDF5) ---------------------------------------------------------------------------------------------------
+ * Topology once, then positions, velocities and scalars frame by frame. A published file is whole at every instant: room for the
+ * coming frames is set aside when it is created, an append writes into that room and raises the counter `frames` last, and
+ * nothing else of the file ever changes. So it can be read while the run goes on, and after a kill at any instruction. */
+typedef struct cipc_trajectory cipc_trajectory;
+
+/* A new file with frame 0 = *state. It is made under a temporary name and renamed: an older file of that name is replaced by a whole
+ * one or not at all. `room` is the number of frames to set room aside for (a hint: more can be appended at the price of a copy). */
+cipc_status cipc_trajectory_create(cipc_trajectory **trajectory, const char *path, const cipc_model *model, const cipc_state *state,
+                                   const char *scene_json, int room, cipc_error *error);
+
+/* Open to append after the last whole frame, which is read into *state (arrays of the model's node count). Errors: CIPC_E_MISSING_FILE;
+ * CIPC_E_NOT_RESUMABLE if the file is damaged or belongs to another model or scene. Of the scene, members that do not change the
+ * trajectory may differ: title, comment, size, sizes, steps, monitor, output. */
+cipc_status cipc_trajectory_resume(cipc_trajectory **trajectory, const char *path, const cipc_model *model, cipc_state *state,
+                                   const char *scene_json, int room, cipc_error *error);
+
+cipc_status cipc_trajectory_append(cipc_trajectory *trajectory, const cipc_state *state, cipc_error *error);
+int cipc_trajectory_frames(const cipc_trajectory *trajectory);
+
+/* Give back the room that is left (by writing a file without it and renaming) and free; NULL is fine. */
+cipc_status cipc_trajectory_close(cipc_trajectory *trajectory, cipc_error *error);
+
+/* Number of whole frames of a file; the positions (3 * node_count, caller's array) and time of one; all times (caller's array of
+ * frame_count). Any argument after node_count may be NULL but the path. Errors: CIPC_E_MISSING_FILE, CIPC_E_IO (damaged, or no such frame). */
+cipc_status cipc_trajectory_count(const char *path, int *frames, cipc_error *error);
+cipc_status cipc_trajectory_read(const char *path, int frame, double *position, int node_count, double *time, cipc_error *error);
+cipc_status cipc_trajectory_times(const char *path, double *times, int frame_count, cipc_error *error);
+
+/* ---- Other files of geometry ---------------------------------------------------------------------------------------------- */
+
+/* XDMF companion for ParaView; h5_name is the file name as XDMF is to name it (relative). Written atomically. times[frame_count]. */
+cipc_status cipc_xdmf_write(const char *path, const char *h5_name, const cipc_model *model, int frame_count, const double *times,
+                            cipc_error *error);
+
+/* Wavefront OBJ of a state, 17 significant digits, one group per body; written atomically. */
+cipc_status cipc_obj_write(const char *path, const cipc_model *model, const double *position, cipc_error *error);
+
+/* Any text, written atomically (temporary name, rename). */
+cipc_status cipc_text_write(const char *path, const char *text, cipc_error *error);
+
+/* ---- Statistics and summary ----------------------------------------------------------------------------------------------- */
+
+/* What the monitors saw during one step: the worst of all its accepted points. */
+typedef struct cipc_step_invariants {
+    long points;                    /* accepted points looked at */
+    long energy_checks;             /* of these, points whose energy is comparable with the one before (M6) */
+    cipc_invariant_report worst;    /* smallest gap, largest stretch; counters are sums */
+} cipc_step_invariants;
+cipc_step_invariants cipc_step_invariants_none(void);
+/* Take in the report of one more point. */
+void cipc_step_invariants_add(cipc_step_invariants *step, const cipc_invariant_report *report);
+
+/* One line of stats.jsonl, flushed: the step that led to *state. invariants may be NULL (monitors off): its fields are then null. */
+cipc_status cipc_stats_write(FILE *file, const cipc_state *state, const cipc_step_report *report, const cipc_step_invariants *invariants,
+                             cipc_error *error);
+
+/* Totals of a run. */
+typedef struct cipc_run_summary {
+    const char *scene_path;
+    const char *scene_size;
+    const char *scene_name;
+    const char *command;            /* the words of the command line, or NULL */
+    int steps_asked, steps_taken;
+    int resumed_from;               /* step that this process went on from; -1: it began at step 0 */
+    double time;                    /* s, simulated */
+    bool converged;                 /* every step */
+    bool interrupted;               /* by a signal */
+    bool monitored;                 /* every step */
+    int limited_triangles;          /* of bodies with a strain limit: M3 has something to look at */
+    int tetrahedra;                 /* M4 has */
+    long points_checked;            /* accepted line-search points that the monitors looked at */
+    long energy_checks;             /* of these, points of which M6 could be checked */
+    long newton_iterations, line_search_halvings, friction_passes, symbolic_analyses, factorizations;
+    int max_contacts, max_newton_iterations;
+    double min_gap, max_stretch, max_stretch_ratio;
+    long exact_gap_checks, exact_strain_checks;
+    double seconds;                 /* of wall clock, in all */
+    double output_seconds, seconds_by_phase[CIPC_PHASE_COUNT];
+    long peak_memory_kb;
+    int threads;
+    unsigned long seed;
+    cipc_status status;             /* how the run ended */
+    const cipc_error *error;        /* NULL if it ended well */
+} cipc_run_summary;
+/* Zeroes, with the extremes (min_gap INFINITY, resumed_from -1) where an empty run has them. */
+cipc_run_summary cipc_run_summary_default(void);
+/* Add what one step did; invariants NULL: not monitored. */
+void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *report, const cipc_step_invariants *invariants);
+
+/* The verdict on an invariant, 1..8 for M1..M8: "holds", "violated" or "not checked". */
+const char *cipc_run_summary_verdict(const cipc_run_summary *summary, int invariant);
+
+/* summary.json, written atomically. */
+cipc_status cipc_summary_write(const char *path, const cipc_run_summary *summary, cipc_error *error);
+
+/* Cut stats.jsonl after the line of `step` (atomically) and add what the lines kept say to *summary, so that the summary of a resumed run is
+ * that of the whole run. CIPC_E_NOT_RESUMABLE if a line is missing; a broken last line is one beyond the cut. */
+cipc_status cipc_stats_resume(const char *path, int step, cipc_run_summary *summary, cipc_error *error);
+
+/* Progress line on a terminal: step, simulated time, Newton iterations, contacts, minimum gap, largest stretch, time left. */
+void cipc_progress_line(FILE *terminal, int step, int steps, double time, int newton_iterations, int contacts, double min_gap,
+                        double max_stretch, double seconds_left);
+/* Wipe it. */
+void cipc_progress_clear(FILE *terminal);
+
+/* ---- Pictures ------------------------------------------------------------------------------------------------------------- */
+
+/* Contact sheet of shaded frames, evenly chosen from the trajectory (first and last included), with time labels. Angles in radians:
+ * azimuth 0 looks along -z, positive turns the eye towards +x; elevation positive looks down. zoom 1 fits all moving bodies. */
+typedef struct cipc_picture_options {
+    int columns, rows, tile_width, tile_height; /* tiles; pixels */
+    double azimuth, elevation, zoom;
+} cipc_picture_options;
+cipc_picture_options cipc_picture_options_default(void);
+cipc_status cipc_frames_png(const char *path, const char *trajectory_path, const cipc_model *model, const cipc_picture_options *options,
+                            cipc_error *error);
+
+/* Four plots over time from stats.jsonl: gap minus thickness (log), largest stretch against its limit (0: none), energies, Newton iterations. */
+cipc_status cipc_plots_png(const char *path, const char *stats_path, double strain_limit, double dhat, cipc_error *error);
+
+#endif

@@ -1,0 +1,74 @@
+/* The largest collision-free step over all candidate pairs (SPEC C.5, D.5). */
+#include "cipc/contact.h"
+
+#include <math.h>
+
+#include "base/vector.h"
+#include "contact/stencil.h"
+
+/* Do the two primitives' boxes, swept over [0, t] and grown by xi, stay apart? The far corner x + t p is rounded like the path itself; the slack
+ * covers both roundings. `first` nodes belong to the first primitive. */
+static bool swept_apart(const double y[12], const double q[12], int first, double t, double xi)
+{
+    for (int k = 0; k < 3; k++) {
+        double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY}, size = 0;
+        for (int i = 0; i < 4; i++) {
+            double from = y[3 * i + k], to = from + t * q[3 * i + k];
+            int side = i >= first;
+            lo[side] = fmin(lo[side], fmin(from, to));
+            hi[side] = fmax(hi[side], fmax(from, to));
+            size = fmax(size, fmax(fabs(from), fabs(to)));
+        }
+        double slack = xi + 0x1p-50 * (size + xi);
+        if (lo[0] - hi[1] > slack || lo[1] - hi[0] > slack) return true;
+    }
+    return false;
+}
+
+typedef struct earliest {
+    double t;
+    long index;
+} earliest;
+
+/* Each pair's result does not depend on t_max unless it is larger, so the minimum over pairs does not depend on their order. */
+static void test_candidate(const cipc_model *model, const cipc_candidates *c, const double *x, const double *p, double t_max, long index,
+                           const cipc_ccd_options *options, earliest *best)
+{
+    bool edge_edge = index >= c->point_triangle_count;
+    int nodes[4];
+    double y[12], q[12];
+    cipc_stencil_nodes(model, edge_edge, edge_edge ? c->edge_edge[index - c->point_triangle_count] : c->point_triangle[index], nodes);
+    cipc_stencil_positions(x, nodes, y);
+    cipc_stencil_positions(p, nodes, q);
+    double xi = cipc_model_pair_offset(model, nodes[0], nodes[2]);
+    if (swept_apart(y, q, edge_edge ? 2 : 1, options->gap_first ? t_max : best->t, xi)) return;
+    cipc_ccd_result r = cipc_additive_ccd(edge_edge ? CIPC_EDGE_EDGE : CIPC_POINT_TRIANGLE, y, q, xi, best->t, options);
+    if (r.hit && (r.toi < best->t || best->index < 0)) {
+        best->t = r.toi;
+        best->index = index;
+    }
+}
+
+double cipc_candidates_ccd(const cipc_model *model, const cipc_candidates *candidates, const double *x, const double *p, double t_max,
+                           const cipc_ccd_options *options, int threads, int nodes[4], bool *edge_edge)
+{
+    long total = (long)candidates->point_triangle_count + candidates->edge_edge_count;
+    earliest best = {t_max, -1};
+#pragma omp parallel num_threads(threads)
+    {
+        earliest mine = {t_max, -1};
+#pragma omp for schedule(dynamic, 64)
+        for (long i = 0; i < total; i++) test_candidate(model, candidates, x, p, t_max, i, options, &mine);
+#pragma omp critical
+        if (mine.index >= 0 && (mine.t < best.t || (mine.t == best.t && (best.index < 0 || mine.index < best.index)))) best = mine;
+    }
+    if (nodes) {
+        for (int i = 0; i < 4; i++) nodes[i] = -1;
+        if (best.index >= 0) {
+            bool ee = best.index >= candidates->point_triangle_count;
+            cipc_stencil_nodes(model, ee, ee ? candidates->edge_edge[best.index - candidates->point_triangle_count] : candidates->point_triangle[best.index], nodes);
+            if (edge_edge) *edge_edge = ee;
+        }
+    }
+    return best.t;
+}

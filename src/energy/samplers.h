@@ -1,0 +1,63 @@
+/* Samplers and branch classifiers of the registry, and the random shapes they share. A sampler fills positions and parameters with a legal
+ * configuration aimed at one branch; the classifier tells which branch a configuration is on. Ranges are log-uniform over what scenes of
+ * cloth in SI units contain. */
+#ifndef CIPC_ENERGY_SAMPLERS_H
+#define CIPC_ENERGY_SAMPLERS_H
+
+#include <gsl/gsl_rng.h>
+#include "cipc/energy.h"
+
+/* Random numbers and shapes (draw.c). */
+double energy_draw_uniform(gsl_rng *rng, double low, double high);
+double energy_draw_log(gsl_rng *rng, double low, double high); /* log-uniform, 0 < low <= high */
+int energy_draw_index(gsl_rng *rng, int count);                /* 0..count-1 */
+void energy_draw_rotation(gsl_rng *rng, double columns[3][3]); /* three orthonormal vectors, right-handed, uniform */
+/* Move `nodes` points given in a local frame by a random rotation and a translation of at most `reach` per coordinate. */
+void energy_draw_placement(gsl_rng *rng, double reach, int nodes, const double *local, double *x);
+/* A rest triangle in the plane, longest side about `size`, height over base in [flattest, 1.5]. */
+void energy_draw_triangle(gsl_rng *rng, double size, double flattest, double rest[9]);
+
+/* The registry's columns sample, branch and branch_names for one energy. */
+#define ENERGY_SAMPLER(name)                                                                                                               \
+    void energy_sample_##name(gsl_rng *rng, int branch, double *x, void *params);                                                          \
+    int energy_branch_##name(const double *x, const void *params)
+
+enum {
+    ENERGY_NODAL_BRANCHES = 2,
+    ENERGY_GRAVITY_BRANCHES = 1,
+    ENERGY_MEMBRANE_BRANCHES = 5,
+    ENERGY_STRAIN_LIMIT_BRANCHES = 7,
+    ENERGY_HINGE_BRANCHES = 14
+};
+enum {
+    ENERGY_CONTACT_BRANCHES = 6,
+    ENERGY_POINT_EDGE_BRANCHES = 7,
+    ENERGY_POINT_TRIANGLE_BRANCHES = 7,
+    ENERGY_EDGE_EDGE_BRANCHES = 19,
+    ENERGY_FRICTION_BRANCHES = 16
+};
+
+extern const char *const energy_nodal_branch_names[ENERGY_NODAL_BRANCHES];
+extern const char *const energy_gravity_branch_names[ENERGY_GRAVITY_BRANCHES];
+extern const char *const energy_membrane_branch_names[ENERGY_MEMBRANE_BRANCHES];
+extern const char *const energy_strain_limit_branch_names[ENERGY_STRAIN_LIMIT_BRANCHES];
+extern const char *const energy_hinge_branch_names[ENERGY_HINGE_BRANCHES];
+extern const char *const energy_contact_branch_names[ENERGY_CONTACT_BRANCHES];
+extern const char *const energy_point_edge_branch_names[ENERGY_POINT_EDGE_BRANCHES];
+extern const char *const energy_point_triangle_branch_names[ENERGY_POINT_TRIANGLE_BRANCHES];
+extern const char *const energy_edge_edge_branch_names[ENERGY_EDGE_EDGE_BRANCHES];
+extern const char *const energy_friction_branch_names[ENERGY_FRICTION_BRANCHES];
+
+ENERGY_SAMPLER(inertia);
+ENERGY_SAMPLER(gravity);
+ENERGY_SAMPLER(dirichlet_penalty);
+ENERGY_SAMPLER(membrane);
+ENERGY_SAMPLER(strain_limit);
+ENERGY_SAMPLER(hinge_bending);
+ENERGY_SAMPLER(barrier_point_point);
+ENERGY_SAMPLER(barrier_point_edge);
+ENERGY_SAMPLER(barrier_point_triangle);
+ENERGY_SAMPLER(barrier_edge_edge);
+ENERGY_SAMPLER(friction);
+
+#endif

@@ -1,0 +1,123 @@
+/* CHOLMOD behind the interface of linear_solver.h. */
+#include "implicit/linear_solver.h"
+
+#include <cholmod.h>
+#include <string.h>
+
+struct cipc_linear_solver {
+    cholmod_common common;
+    cholmod_factor *factor;
+    cholmod_dense *solution, *workspace_y, *workspace_e;
+};
+
+cipc_status cipc_linear_solver_create(cipc_linear_solver **solver, cipc_error *error)
+{
+    cipc_linear_solver *s = cipc_alloc(1, sizeof *s);
+    *solver = s;
+    if (!s) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "linear solver", "no memory");
+    if (!cholmod_start(&s->common)) {
+        cipc_free(s);
+        *solver = NULL;
+        return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "linear solver", "CHOLMOD does not start");
+    }
+    s->common.print = 0; /* errors come back as status */
+    s->common.final_ll = 1;
+    return CIPC_OK;
+}
+
+void cipc_linear_solver_destroy(cipc_linear_solver *s)
+{
+    if (!s) return;
+    cholmod_free_factor(&s->factor, &s->common);
+    cholmod_free_dense(&s->solution, &s->common);
+    cholmod_free_dense(&s->workspace_y, &s->common);
+    cholmod_free_dense(&s->workspace_e, &s->common);
+    cholmod_finish(&s->common);
+    cipc_free(s);
+}
+
+static cipc_status solver_error(const cipc_linear_solver *s, const char *what, cipc_error *error)
+{
+    if (s->common.status == CHOLMOD_OUT_OF_MEMORY) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "linear solver", "no memory to %s", what);
+    return cipc_fail(error, CIPC_E_FACTORIZATION, "linear solver", "CHOLMOD failed to %s (status %d)", what, s->common.status);
+}
+
+/* Views of our arrays as CHOLMOD's; nothing is copied. */
+static cholmod_sparse scalar_view(const cipc_block_matrix *A)
+{
+    size_t n = 3 * (size_t)A->n, entries = 9 * (size_t)A->start[A->n];
+    cholmod_sparse view = {.nrow = n, .ncol = n, .nzmax = entries, .p = A->p, .i = A->i, .x = A->x, .stype = -1, .itype = CHOLMOD_INT,
+                           .xtype = CHOLMOD_REAL, .dtype = CHOLMOD_DOUBLE, .sorted = 1, .packed = 1};
+    return view;
+}
+
+static cholmod_sparse block_graph_view(const cipc_block_matrix *A)
+{
+    size_t n = (size_t)A->n;
+    cholmod_sparse view = {.nrow = n, .ncol = n, .nzmax = (size_t)A->start[A->n], .p = A->start, .i = A->row, .stype = -1, .itype = CHOLMOD_INT,
+                           .xtype = CHOLMOD_PATTERN, .dtype = CHOLMOD_DOUBLE, .sorted = 1, .packed = 1};
+    return view;
+}
+
+/* Fill-reducing order of the block graph: the better of AMD and METIS by fill, expanded to scalars. */
+static cipc_status order(cipc_linear_solver *s, const cipc_block_matrix *A, int *scalar_order, cipc_error *error)
+{
+    cholmod_sparse graph = block_graph_view(A);
+    s->common.nmethods = 2;
+    s->common.method[0].ordering = CHOLMOD_AMD;
+    s->common.method[1].ordering = CHOLMOD_METIS;
+    s->common.supernodal = CHOLMOD_SIMPLICIAL;
+    cholmod_factor *symbolic = cholmod_analyze(&graph, &s->common);
+    if (!symbolic) return solver_error(s, "order the matrix", error);
+    const int *block_order = symbolic->Perm;
+    for (int k = 0; k < 3 * A->n; k++) scalar_order[k] = 3 * block_order[k / 3] + k % 3;
+    cholmod_free_factor(&symbolic, &s->common);
+    return CIPC_OK;
+}
+
+cipc_status cipc_linear_solver_analyze(cipc_linear_solver *s, const cipc_block_matrix *A, cipc_error *error)
+{
+    cholmod_free_factor(&s->factor, &s->common);
+    int *scalar_order = cipc_alloc(3 * (size_t)A->n, sizeof(int));
+    if (!scalar_order) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "linear solver", "no memory to order the matrix");
+    cipc_status status = order(s, A, scalar_order, error);
+    if (!status) {
+        cholmod_sparse view = scalar_view(A);
+        s->common.nmethods = 1;
+        s->common.method[0].ordering = CHOLMOD_GIVEN;
+        s->common.supernodal = CHOLMOD_AUTO;
+        s->factor = cholmod_analyze_p(&view, scalar_order, NULL, 0, &s->common);
+        if (!s->factor) status = solver_error(s, "analyse the matrix", error);
+    }
+    cipc_free(scalar_order);
+    return status;
+}
+
+cipc_status cipc_linear_solver_factorize(cipc_linear_solver *s, const cipc_block_matrix *A, int threads, bool *definite, cipc_error *error)
+{
+    (void)threads;
+    cholmod_sparse view = scalar_view(A);
+    cholmod_factorize(&view, s->factor, &s->common);
+    *definite = s->common.status == CHOLMOD_OK;
+    if (s->common.status == CHOLMOD_OK || s->common.status == CHOLMOD_NOT_POSDEF) return CIPC_OK;
+    return solver_error(s, "factorise the matrix", error);
+}
+
+cipc_status cipc_linear_solver_solve(cipc_linear_solver *s, const double *b, double *x, cipc_error *error)
+{
+    size_t n = s->factor->n;
+    double *values = cipc_alloc(n, sizeof(double)); /* CHOLMOD's views are not const */
+    if (!values) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "linear solver", "no memory to solve");
+    memcpy(values, b, n * sizeof(double));
+    cholmod_dense right = {.nrow = n, .ncol = 1, .nzmax = n, .d = n, .x = values, .xtype = CHOLMOD_REAL, .dtype = CHOLMOD_DOUBLE};
+    int solved = cholmod_solve2(CHOLMOD_A, s->factor, &right, NULL, &s->solution, NULL, &s->workspace_y, &s->workspace_e, &s->common);
+    cipc_free(values);
+    if (!solved) return solver_error(s, "solve", error);
+    memcpy(x, s->solution->x, n * sizeof(double));
+    return CIPC_OK;
+}
+
+double cipc_linear_solver_factor_entries(const cipc_linear_solver *s)
+{
+    return s->factor ? (s->factor->is_super ? (double)s->factor->xsize : (double)s->factor->nzmax) : 0;
+}

@@ -1,0 +1,187 @@
+/* Projected Newton: minimise E from the present iterate with the friction data as they are (SPEC C.7, D.7). */
+#include "implicit/stepper.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "base/vector.h"
+
+/* The released code's rule looks at the worst of this many iterations. */
+enum { RMS_WINDOW = 3 };
+/* kappa is doubled when the smallest gap is below this fraction of the bounding box at two iterates and shrinks (SPEC D.4); released: 1e-9 m. */
+static const double doubling_gap_fraction = 1e-9;
+/* k_D doubles to at most this (SPEC C.7). */
+static const double largest_penalty = 1e8;
+/* Multiples of the mass matrix added, growing tenfold, when a factorisation meets a pivot that is not positive. */
+static const double first_shift = 1e-6;
+enum { SHIFTS = 12 };
+
+/* State of one minimisation. */
+typedef struct minimisation {
+    double energy, residual, slope;
+    double recent[RMS_WINDOW];
+    double previous_gap;
+    int iteration;
+} minimisation;
+
+static void shift_diagonal(cipc_stepper *s, double shift)
+{
+    for (int k = 0; k < s->free_count; k++) {
+        double *entries = s->matrix.x + cipc_block_matrix_entry(&s->matrix, k, s->matrix.start[k]);
+        for (int c = 0; c < 3; c++) entries[c * cipc_block_matrix_stride(&s->matrix, k) + c] += shift * s->model->mass[s->free_nodes[k]];
+    }
+}
+
+/* Factorise; M > 0 and every other term is projected, so this fails by rounding only: then more and more mass is added, which keeps a descent direction. */
+static cipc_status factorize(cipc_stepper *s, cipc_error *error)
+{
+    double begin = cipc_seconds(), shift = first_shift;
+    bool definite = false;
+    for (int attempt = 0; attempt <= SHIFTS && !definite; attempt++, shift *= 10) {
+        if (attempt > 0) shift_diagonal(s, shift);
+        cipc_status status = cipc_linear_solver_factorize(s->solver, &s->matrix, s->options.threads, &definite, error);
+        if (status) return status;
+        s->report->factorizations++;
+    }
+    s->report->seconds[CIPC_PHASE_FACTORIZATION] += cipc_seconds() - begin;
+    return definite ? CIPC_OK : cipc_fail(error, CIPC_E_FACTORIZATION, "newton", "the Newton matrix is not positive definite, even with mass added");
+}
+
+/* p = -H^-1 grad E into s->direction; slope p.grad E. */
+static cipc_status newton_direction(cipc_stepper *s, double *slope, cipc_error *error)
+{
+    double begin = cipc_seconds();
+    cipc_status status = cipc_potential_gradient(s, error);
+    if (!status) status = cipc_assemble_hessian(s, error);
+    s->report->seconds[CIPC_PHASE_ASSEMBLY] += cipc_seconds() - begin;
+    if (!status) status = factorize(s, error);
+    if (status) return status;
+    begin = cipc_seconds();
+    for (int k = 0; k < s->free_count; k++) v3_scale(s->right + 3 * k, -1, s->gradient + 3 * s->free_nodes[k]);
+    status = cipc_linear_solver_solve(s->solver, s->right, s->solution, error);
+    if (status) return status;
+    memset(s->direction, 0, 3 * (size_t)s->model->node_count * sizeof(double));
+    *slope = 0;
+    for (int k = 0; k < s->free_count; k++) {
+        v3_copy(s->direction + 3 * s->free_nodes[k], s->solution + 3 * k);
+        *slope -= v3_dot(s->right + 3 * k, s->solution + 3 * k);
+    }
+    s->report->seconds[CIPC_PHASE_SOLVE] += cipc_seconds() - begin;
+    return CIPC_OK;
+}
+
+/* Length of the Newton step in the norm of the stopping rule, m/s. */
+static double step_length(const cipc_stepper *s)
+{
+    double most = 0, sum = 0;
+    int prescribed = 0;
+    for (int i = 0; i < s->model->node_count; i++) {
+        double length2 = v3_norm2(s->direction + 3 * i);
+        most = fmax(most, length2);
+        sum += length2;
+        prescribed += s->is_dirichlet[i] || s->moves[i];
+    }
+    if (s->options.newton_norm == CIPC_NORM_MAX) return sqrt(most) / s->options.time_step;
+    int count = s->model->node_count - prescribed;
+    return sqrt(sum / (count > 0 ? count : 1)) / s->options.time_step;
+}
+
+static bool below_tolerance(const cipc_stepper *s, minimisation *m, double alpha)
+{
+    if (s->options.newton_norm == CIPC_NORM_MAX) return alpha == 1 && m->residual <= s->options.newton_tolerance;
+    double worst = 0;
+    m->recent[m->iteration % RMS_WINDOW] = m->residual;
+    for (int i = 0; i < RMS_WINDOW; i++) worst = fmax(worst, m->recent[i]);
+    return m->iteration + 1 >= RMS_WINDOW && worst <= s->options.newton_tolerance;
+}
+
+static cipc_status energy_now(cipc_stepper *s, double *energy, cipc_error *error)
+{
+    cipc_energy_terms terms;
+    double begin = cipc_seconds();
+    cipc_status status = cipc_potential_value(s, s->x, &s->contacts, &terms, error);
+    s->report->seconds[CIPC_PHASE_LINE_SEARCH] += cipc_seconds() - begin;
+    *energy = terms.total;
+    return status;
+}
+
+static void set_stiffness(cipc_stepper *s, double kappa)
+{
+    s->kappa = kappa;
+    for (int i = 0; i < s->contacts.count; i++) s->contacts.contacts[i].barrier.stiffness = kappa;
+}
+
+static double largest_stiffness(const cipc_stepper *s)
+{
+    if (s->options.released) return cipc_barrier_stiffness_range_released(s->mean_mass, s->options.contact.dhat).maximum;
+    double xi = 0;
+    for (int b = 0; b < s->model->body_count; b++) xi = fmax(xi, s->model->bodies[b].offset);
+    return cipc_barrier_stiffness_range(s->bounding_box_diagonal, s->mean_mass, xi, s->options.contact.dhat).maximum;
+}
+
+/* Stiffness adaptations between iterations; E changes with them. */
+static cipc_status adapt(cipc_stepper *s, minimisation *m, cipc_error *error)
+{
+    double smallest = s->options.released ? 1e-9 : doubling_gap_fraction * s->bounding_box_diagonal, gap = s->contacts.min_gap;
+    bool changed = cipc_strain_adapt(s);
+    if (gap < smallest && m->previous_gap < smallest && gap < m->previous_gap && s->kappa < largest_stiffness(s)) {
+        set_stiffness(s, fmin(2 * s->kappa, largest_stiffness(s)));
+        changed = true;
+    }
+    m->previous_gap = gap;
+    return changed ? energy_now(s, &m->energy, error) : CIPC_OK;
+}
+
+/* Penalised nodes: on to their targets, or a stiffer pull. *waiting: they are not there yet. */
+static cipc_status drive_penalty(cipc_stepper *s, minimisation *m, bool converged, bool *waiting, cipc_error *error)
+{
+    *waiting = false;
+    if (s->penalty == 0) return CIPC_OK;
+    bool done;
+    cipc_status status = cipc_dirichlet_finish(s, m->iteration, &done, error);
+    if (status) return status;
+    *waiting = true;
+    if (!done && (converged || m->residual < 10 * s->options.newton_tolerance)) {
+        if (s->penalty >= largest_penalty && converged)
+            return cipc_fail(error, CIPC_E_NO_PROGRESS, "newton", "scripted nodes got %.4g of their way and no further: something is in it",
+                             cipc_dirichlet_progress(s));
+        s->penalty = fmin(2 * s->penalty, largest_penalty);
+    }
+    return energy_now(s, &m->energy, error);
+}
+
+static cipc_status not_converged(const cipc_stepper *s, const minimisation *m, cipc_error *error)
+{
+    char place[64];
+    const int *n = s->limit.nodes;
+    (void)snprintf(place, sizeof place, "step %d", s->step);
+    if (s->limit.what && n[0] >= 0)
+        return cipc_fail(error, CIPC_E_NOT_CONVERGED, place, "not converged after %d iterations: residual %.3g m/s, tolerance %.3g; limited by %s at nodes %d %d %d %d",
+                         m->iteration, m->residual, s->options.newton_tolerance, s->limit.what, n[0], n[1], n[2], n[3]);
+    return cipc_fail(error, CIPC_E_NOT_CONVERGED, place, "not converged after %d iterations: residual %.3g m/s, tolerance %.3g%s%s", m->iteration, m->residual,
+                     s->options.newton_tolerance, s->limit.what ? "; limited by " : "", s->limit.what ? s->limit.what : "");
+}
+
+cipc_status cipc_newton(cipc_stepper *s, cipc_error *error)
+{
+    minimisation m = {.previous_gap = INFINITY};
+    cipc_status status = energy_now(s, &m.energy, error);
+    for (; !status && m.iteration < s->options.newton_iterations; m.iteration++) {
+        double alpha = 0;
+        bool waiting;
+        status = newton_direction(s, &m.slope, error);
+        if (status) return status;
+        m.residual = step_length(s);
+        s->report->residual = m.residual;
+        s->report->newton_iterations++;
+        status = cipc_line_search(s, m.iteration, m.slope, &m.energy, &alpha, error);
+        if (status) return status;
+        if (alpha == 0) break; /* no decrease to be had: say so rather than call it converged */
+        bool converged = below_tolerance(s, &m, alpha);
+        status = drive_penalty(s, &m, converged, &waiting, error);
+        if (status || (converged && !waiting)) return status;
+        status = adapt(s, &m, error);
+    }
+    return status ? status : not_converged(s, &m, error);
+}

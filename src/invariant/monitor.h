@@ -1,0 +1,36 @@
+/* What the monitors share: the private parts of a cipc_monitor, and how a pair is named in a message. */
+#ifndef CIPC_INVARIANT_MONITOR_H
+#define CIPC_INVARIANT_MONITOR_H
+
+#include "cipc/invariant.h"
+#include "invariant/candidates.h"
+
+/* What M3 keeps of a triangle at rest. */
+typedef struct cipc_strain_rest {
+    double form[3];                           /* first fundamental form Ibar: |E1|^2, E1.E2, |E2|^2 */
+    double inverse[4];                        /* rows of the inverse of the 2 x 2 matrix of E1, E2 in an orthonormal frame of the rest triangle */
+    double limit;                             /* s; 0: not limited */
+    bool measured;                            /* counts for max_stretch */
+} cipc_strain_rest;
+
+struct cipc_monitor {
+    const cipc_model *model;
+    cipc_invariant_options options;
+    cipc_candidates candidates;
+    cipc_strain_rest *rest;                   /* triangle_count */
+};
+
+/* Fill rest[triangle_count]. (strain.c) */
+void cipc_strain_rest_init(cipc_strain_rest *rest, const cipc_model *model);
+
+/* M8, then valid lists for x; *report gets lists_made. */
+cipc_status cipc_monitor_prepare(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);
+
+/* Sections of a loop with a result slot each: fixed size, so that results do not depend on the number of threads. */
+enum { CIPC_MONITOR_SECTION = 1024 };
+int cipc_monitor_sections(int count);
+
+/* Name of the body a node belongs to. */
+const char *cipc_monitor_body(const cipc_model *model, int node);
+
+#endif

@@ -1,0 +1,190 @@
+/* Monitor M3: the largest principal stretch of every limited triangle is below its limit, sigma_1 < s (SPEC V.5).
+ *
+ * With first fundamental forms Ibar (rest) and I (now):  sigma_1 < s  <=>  M = s^2 Ibar - I positive definite  <=>  M11 > 0 and det M > 0.
+ * Both are evaluated in double with an error bound (docs/monitors.md, "The strain bound"); what it cannot decide goes to exact arithmetic. */
+#include "cipc/invariant.h"
+
+#include <float.h>
+#include <math.h>
+
+#include "base/vector.h"
+#include "cipc/oracle.h"
+#include "invariant/monitor.h"
+
+#define UNIT (0.5 * DBL_EPSILON)
+/* With Q = s^2 tr Ibar + tr I, every entry of M is off by at most 9 u Q, hence det M by at most 43 u Q^2; rounded up to cover the bounds' own rounding. */
+#define ENTRY_ERROR (10 * UNIT)
+#define DETERMINANT_ERROR (48 * UNIT)
+/* Outside of these, underflow or overflow could spoil the bounds: nothing is proven then. */
+#define SMALLEST_TRACE 0x1p-400
+#define LARGEST_TRACE 0x1p400
+
+/* form = |e1|^2, e1.e2, |e2|^2. */
+static void fundamental_form(double form[3], const double e1[3], const double e2[3])
+{
+    form[0] = v3_norm2(e1);
+    form[1] = v3_dot(e1, e2);
+    form[2] = v3_norm2(e2);
+}
+
+static void edges_of(const double *x, const int nodes[3], double e1[3], double e2[3])
+{
+    v3_sub(e1, &x[3 * (size_t)nodes[1]], &x[3 * (size_t)nodes[0]]);
+    v3_sub(e2, &x[3 * (size_t)nodes[2]], &x[3 * (size_t)nodes[0]]);
+}
+
+/* Inverse of [E1 E2] = [l a; 0 b] in the frame whose first axis is along E1; all zero for a triangle without area. */
+static void invert_rest(double inverse[4], const double E1[3], const double E2[3])
+{
+    double normal[3], l = v3_norm(E1);
+    v3_cross(normal, E1, E2);
+    double a = v3_dot(E1, E2) / l, b = v3_norm(normal) / l;
+    bool has_area = l > 0 && b > 0;
+    inverse[0] = has_area ? 1 / l : 0;
+    inverse[1] = has_area ? -a / (l * b) : 0;
+    inverse[2] = 0;
+    inverse[3] = has_area ? 1 / b : 0;
+}
+
+void cipc_strain_rest_init(cipc_strain_rest *rest, const cipc_model *model)
+{
+    for (int t = 0; t < model->triangle_count; t++) {
+        const cipc_shell_material *material = &model->bodies[model->triangle_body[t]].material;
+        double E1[3], E2[3];
+        edges_of(model->rest, model->triangles[t], E1, E2);
+        fundamental_form(rest[t].form, E1, E2);
+        invert_rest(rest[t].inverse, E1, E2);
+        rest[t].limit = material->strain_limit;
+        rest[t].measured = material->membrane != CIPC_MEMBRANE_NONE || material->strain_limit > 0;
+    }
+}
+
+/* Does double arithmetic prove that M = s^2 Ibar - I is positive definite? */
+static bool is_proven(const cipc_strain_rest *rest, const double form[3])
+{
+    double s2 = rest->limit * rest->limit;
+    double m11 = s2 * rest->form[0] - form[0], m12 = s2 * rest->form[1] - form[1], m22 = s2 * rest->form[2] - form[2];
+    double trace = s2 * (rest->form[0] + rest->form[2]) + (form[0] + form[2]);
+    bool in_range = trace > SMALLEST_TRACE && trace < LARGEST_TRACE;
+    return in_range && m11 > ENTRY_ERROR * trace && m11 * m22 - m12 * m12 > DETERMINANT_ERROR * trace * trace;
+}
+
+/* Largest eigenvalue of C = F^T F with F = [e1 e2] B, B the inverse at rest; its root is sigma_1. */
+static double largest_stretch2(const cipc_strain_rest *rest, const double e1[3], const double e2[3])
+{
+    double f1[3], f2[3];
+    v3_scale(f1, rest->inverse[0], e1);
+    for (int k = 0; k < 3; k++) {
+        f2[k] = rest->inverse[1] * e1[k] + rest->inverse[3] * e2[k];
+    }
+    double c11 = v3_norm2(f1), c12 = v3_dot(f1, f2), c22 = v3_norm2(f2);
+    double half = 0.5 * (c11 - c22);
+    return 0.5 * (c11 + c22) + sqrt(half * half + c12 * c12);
+}
+
+/* What one section of the triangles gave. */
+typedef struct strain_result {
+    double stretch, ratio;
+    int triangle;       /* of the largest stretch; -1: none */
+    int violating;      /* the first violating triangle; -1: none */
+    long exact;
+} strain_result;
+
+static bool is_violating(const cipc_model *m, int triangle, double limit, const double *x)
+{
+    double rest[9], now[9];
+    cipc_gather(rest, m->rest, m->triangles[triangle], 3);
+    cipc_gather(now, x, m->triangles[triangle], 3);
+    return cipc_exact_compare_stretch(rest, now, limit) <= 0;
+}
+
+static void check_triangle(strain_result *r, const cipc_monitor *monitor, int t, const double *x)
+{
+    const cipc_strain_rest *rest = &monitor->rest[t];
+    double e1[3], e2[3], form[3];
+    edges_of(x, monitor->model->triangles[t], e1, e2);
+    double stretch = sqrt(largest_stretch2(rest, e1, e2));
+    if (r->triangle < 0 || stretch > r->stretch) {
+        r->stretch = stretch;
+        r->triangle = t;
+    }
+    if (!(rest->limit > 0)) {
+        return;
+    }
+    r->ratio = fmax(r->ratio, (stretch - 1) / (rest->limit - 1));
+    fundamental_form(form, e1, e2);
+    if (!is_proven(rest, form)) {
+        r->exact++;
+        if (is_violating(monitor->model, t, rest->limit, x) && r->violating < 0) {
+            r->violating = t;
+        }
+    }
+}
+
+static strain_result check_section(const cipc_monitor *monitor, int section, const double *x)
+{
+    strain_result r = {0, 0, -1, -1, 0};
+    int first = section * CIPC_MONITOR_SECTION, count = monitor->model->triangle_count;
+    int last = first + CIPC_MONITOR_SECTION < count ? first + CIPC_MONITOR_SECTION : count;
+    for (int t = first; t < last; t++) {
+        if (monitor->rest[t].measured) {
+            check_triangle(&r, monitor, t, x);
+        }
+    }
+    return r;
+}
+
+static strain_result merge(const strain_result *results, int count)
+{
+    strain_result all = {0, 0, -1, -1, 0};
+    for (int i = 0; i < count; i++) {
+        const strain_result *r = &results[i];
+        if (r->triangle >= 0 && (all.triangle < 0 || r->stretch > all.stretch)) {
+            all.stretch = r->stretch;
+            all.triangle = r->triangle;
+        }
+        all.ratio = fmax(all.ratio, r->ratio);
+        all.violating = all.violating < 0 ? r->violating : all.violating;
+        all.exact += r->exact;
+    }
+    return all;
+}
+
+static cipc_status fail_strain(const cipc_monitor *monitor, int t, const double *x, cipc_error *error)
+{
+    const cipc_model *m = monitor->model;
+    const int *n = m->triangles[t];
+    double e1[3], e2[3], limit = monitor->rest[t].limit;
+    edges_of(x, n, e1, e2);
+    double stretch = sqrt(largest_stretch2(&monitor->rest[t], e1, e2));
+    return cipc_fail(error, CIPC_E_VIOLATED_STRAIN, "monitor strain",
+                     "triangle %d (nodes %d %d %d, body \"%s\"): largest principal stretch %.17g (%a, evaluated in double) must be below the limit %.17g (%a); exact "
+                     "arithmetic says it is not",
+                     t, n[0], n[1], n[2], m->bodies[m->triangle_body[t]].name, stretch, stretch, limit, limit);
+}
+
+cipc_status cipc_monitor_strain(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error)
+{
+    cipc_status status = cipc_monitor_finite(monitor->model, x, error);
+    if (status != CIPC_OK) {
+        return status;
+    }
+    int sections = cipc_monitor_sections(monitor->model->triangle_count);
+    strain_result *results = cipc_alloc((size_t)sections, sizeof *results);
+    if (results == NULL) {
+        return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "monitor strain", "no memory for the results of %d sections", sections);
+    }
+#pragma omp parallel for schedule(dynamic) num_threads(monitor->options.threads) if (monitor->options.threads > 1)
+    for (int i = 0; i < sections; i++) {
+        results[i] = check_section(monitor, i, x);
+    }
+    strain_result all = merge(results, sections);
+    cipc_free(results);
+    if (report != NULL) {
+        report->max_stretch = all.stretch;
+        report->max_stretch_triangle = all.triangle;
+        report->max_stretch_ratio = all.ratio;
+        report->exact_strain_checks = all.exact;
+    }
+    return all.violating < 0 ? CIPC_OK : fail_strain(monitor, all.violating, x, error);
+}

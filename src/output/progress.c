@@ -1,0 +1,41 @@
+/* The progress line: rewritten in place on a terminal. */
+#include "cipc/output.h"
+
+#include <math.h>
+
+/* "1:02:03", "4:05", or "-" when unknown. */
+static void format_duration(char *text, size_t size, double seconds)
+{
+    const double longest = 1e6 * 3600;
+    if (!(seconds >= 0 && seconds < longest)) {
+        snprintf(text, size, "-");
+        return;
+    }
+    long s = lround(seconds);
+    if (s >= 3600) {
+        snprintf(text, size, "%ld:%02ld:%02ld", s / 3600, s / 60 % 60, s % 60);
+    } else {
+        snprintf(text, size, "%ld:%02ld", s / 60, s % 60);
+    }
+}
+
+void cipc_progress_line(FILE *terminal, int step, int steps, double time, int newton_iterations, int contacts, double min_gap,
+                        double max_stretch, double seconds_left)
+{
+    char left[32], gap[32];
+    format_duration(left, sizeof left, seconds_left);
+    if (isfinite(min_gap)) {
+        snprintf(gap, sizeof gap, "%.2e m", min_gap);
+    } else {
+        snprintf(gap, sizeof gap, "-");
+    }
+    fprintf(terminal, "\r\033[Kstep %d/%d  t %.4g s  newton %d  contacts %d  gap %s  stretch %.4f  left %s", step, steps, time,
+            newton_iterations, contacts, gap, max_stretch, left);
+    fflush(terminal);
+}
+
+void cipc_progress_clear(FILE *terminal)
+{
+    fputs("\r\033[K", terminal);
+    fflush(terminal);
+}

@@ -1,0 +1,105 @@
+/* Scale, rotate, translate. */
+#include "scene/transform.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "base/vector.h"
+
+/* A number for all three axes, or one for each. */
+static void read_scale(scene_reader *r, const scene_cursor *object, double scale[3])
+{
+    static const double one[3] = {1, 1, 1};
+    scene_cursor member = scene_member(object, "scale");
+    if (json_is_number(member.value)) {
+        scale[0] = scale[1] = scale[2] = scene_number_at(r, &member, scene_positive);
+    } else if (member.value == NULL) {
+        scene_vector(r, object, "scale", one, scale);
+    } else {
+        scene_vector_at(r, &member, scene_positive, scale);
+    }
+}
+
+void scene_read_axis(scene_reader *r, const scene_cursor *object, const char *key, const double fallback[3], double axis[3])
+{
+    scene_vector(r, object, key, fallback, axis);
+    double length = v3_norm(axis);
+    scene_cursor member = scene_member(object, key);
+    if (!(length > 0) || !isfinite(length))
+        scene_reject(r, &member, CIPC_E_OUT_OF_RANGE, "is not a direction: its length is %g", length);
+    else
+        v3_scale(axis, 1 / length, axis);
+}
+
+static void read_rotation(scene_reader *r, const scene_cursor *rotation, scene_transform *t)
+{
+    static const char *const keys[] = {"axis", "angle", NULL};
+    static const double up[3] = {0, 1, 0};
+    if (!scene_is_object(r, rotation, keys)) return;
+    scene_read_axis(r, rotation, "axis", up, t->rotations[t->rotation_count].axis);
+    t->rotations[t->rotation_count++].angle = scene_number(r, rotation, "angle", SCENE_REQUIRED_NUMBER, scene_any);
+}
+
+static void read_rotations(scene_reader *r, const scene_cursor *transform, scene_transform *t)
+{
+    scene_cursor rotate = scene_member(transform, "rotate");
+    if (json_is_object(rotate.value)) {
+        read_rotation(r, &rotate, t);
+        return;
+    }
+    rotate = scene_array_member(r, transform, "rotate");
+    if (!scene_is_array(r, &rotate, 0, SCENE_ROTATIONS_MAX)) return;
+    for (size_t i = 0; i < json_array_size(rotate.value); i++) {
+        scene_cursor rotation = scene_element(&rotate, i);
+        read_rotation(r, &rotation, t);
+    }
+}
+
+/* "initial": the mesh after its scale; {"scale": ...}: the mesh after that scale, so that the body starts stretched. */
+static void read_rest(scene_reader *r, const scene_cursor *body, scene_transform *t)
+{
+    static const char *const keys[] = {"scale", NULL};
+    static const char *const kinds[] = {"initial", NULL};
+    scene_cursor rest = scene_member(body, "rest");
+    if (json_is_object(rest.value)) {
+        if (scene_is_object(r, &rest, keys)) read_scale(r, &rest, t->rest_scale);
+        return;
+    }
+    scene_choice(r, body, "rest", "rest shape", kinds, 0);
+    memcpy(t->rest_scale, t->scale, sizeof t->scale);
+}
+
+void scene_read_transform(scene_reader *r, const scene_cursor *body, scene_transform *t)
+{
+    static const char *const keys[] = {"scale", "rotate", "translate", NULL};
+    static const double zero[3] = {0, 0, 0};
+    *t = (scene_transform){.scale = {1, 1, 1}, .rest_scale = {1, 1, 1}};
+    scene_cursor transform = scene_object_member(r, body, "transform");
+    if (!scene_is_object(r, &transform, keys)) return;
+    read_scale(r, &transform, t->scale);
+    read_rotations(r, &transform, t);
+    scene_vector(r, &transform, "translate", zero, t->translate);
+    read_rest(r, body, t);
+}
+
+/* Rodrigues' formula: x cos + (axis x x) sin + axis (axis . x) (1 - cos). */
+static void rotate_point(double x[3], const double axis[3], double angle)
+{
+    double cosine = cos(angle), sine = sin(angle), along = v3_dot(axis, x) * (1 - cosine), across[3];
+    v3_cross(across, axis, x);
+    for (int k = 0; k < 3; k++) x[k] = x[k] * cosine + across[k] * sine + axis[k] * along;
+}
+
+void scene_transform_nodes(const scene_transform *t, const double *nodes, int count, double *rest, double *position)
+{
+    for (int i = 0; i < count; i++) {
+        const double *x = nodes + 3 * i;
+        double *y = position + 3 * i;
+        for (int k = 0; k < 3; k++) {
+            rest[3 * i + k] = t->rest_scale[k] * x[k];
+            y[k] = t->scale[k] * x[k];
+        }
+        for (int n = 0; n < t->rotation_count; n++) rotate_point(y, t->rotations[n].axis, t->rotations[n].angle);
+        v3_add(y, y, t->translate);
+    }
+}

@@ -1,0 +1,32 @@
+/* Models made by hand for the tests of the monitors: only the fields that monitors read are filled, anything may be degenerate, and loose points, loose edges and
+ * tetrahedra are allowed. Memory is malloc'd, so that counting allocators see the code under test only. */
+#ifndef SUPPORT_HAND_MODEL_H
+#define SUPPORT_HAND_MODEL_H
+
+#include <stdbool.h>
+
+#include "cipc/model.h"
+
+/* A model that grows: bodies first, then nodes, then elements of nodes. */
+typedef struct hand_model {
+    cipc_model model;
+    double *x; /* 3 * node_count: the positions; the nodes' rest positions are in model.rest */
+} hand_model;
+
+hand_model *hand_model_create(void);
+void hand_model_destroy(hand_model *h);
+
+/* Returns the index of the body. */
+int hand_body(hand_model *h, const char *name, double offset, double strain_limit, bool fixed);
+/* Returns the index of the node; rest = position. */
+int hand_node(hand_model *h, int body, double x, double y, double z);
+void hand_edge(hand_model *h, int a, int b);
+/* A triangle and those of its edges that the model does not have yet. */
+void hand_triangle(hand_model *h, int a, int b, int c);
+void hand_tetrahedron(hand_model *h, int a, int b, int c, int d);
+/* A grid of nx * ny cells with corner `origin` spanned by vectors u and v, two triangles a cell. Returns the first node. */
+int hand_grid(hand_model *h, int body, const double origin[3], const double u[3], const double v[3], int nx, int ny);
+/* Add t to the positions (not the rest positions) of all nodes. */
+void hand_translate(hand_model *h, const double t[3]);
+
+#endif

@@ -1,0 +1,132 @@
+/* The mesh of a body as the scene describes it. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "scene/shell.h"
+#include "support/scene_trial.h"
+
+static void assert_shell(const char *text, int nodes, int triangles)
+{
+    cipc_mesh mesh;
+    scene_reader r = reader_of(text);
+    scene_cursor root = scene_root(r.root);
+    scene_read_shell(&r, &root, 1, &mesh);
+    if (r.status != CIPC_OK) fail_msg("%s: %s", r.error.place, r.error.what);
+    assert_int_equal(mesh.node_count, nodes);
+    assert_int_equal(mesh.triangle_count, triangles);
+    cipc_mesh_free(&mesh);
+    scene_reader_free(&r);
+}
+
+static void assert_refused(const char *text, cipc_status status, const char *place, const char *what)
+{
+    cipc_mesh mesh;
+    scene_reader r = reader_of(text);
+    scene_cursor root = scene_root(r.root);
+    scene_read_shell(&r, &root, 1, &mesh);
+    assert_rejection(&r, status, place, what);
+    assert_null(mesh.nodes);
+    scene_reader_free(&r);
+}
+
+static void test_generators(void **state)
+{
+    (void)state;
+    assert_shell("{\"grid\": {\"size\": [1, 2.5], \"cells\": [2, 3]}}", 12, 12);
+    assert_shell("{\"grid\": {\"size\": [1, 2], \"cells\": [2, 2], \"alternate\": true}}", 9, 8);
+    assert_shell("{\"irregular\": {\"size\": [1, 1], \"nodes\": 5}}", 5, 4);
+    assert_shell("{\"icosphere\": {\"radius\": 1, \"subdivisions\": 1}}", 42, 80);
+}
+
+/* Without a seed of its own a sheet takes the scene's, and the tree says so. */
+static void test_the_seed_of_the_scene(void **state)
+{
+    (void)state;
+    cipc_mesh a, b;
+    scene_reader r = reader_of("{\"irregular\": {\"size\": [1, 1], \"nodes\": 50}}");
+    scene_cursor root = scene_root(r.root);
+    scene_read_shell(&r, &root, 9, &a);
+    assert_int_equal(json_integer_value(json_object_get(json_object_get(r.root, "irregular"), "seed")), 9);
+    assert_int_equal(cipc_mesh_irregular(&b, 1, 1, 50, 9, NULL), CIPC_OK);
+    assert_memory_equal(a.nodes, b.nodes, 150 * sizeof *a.nodes);
+    cipc_mesh_free(&a);
+    cipc_mesh_free(&b);
+    scene_reader_free(&r);
+}
+
+static void test_rejections(void **state)
+{
+    (void)state;
+    assert_refused("{}", CIPC_E_MISSING_KEY, "t.json:1:1", "needs one of");
+    assert_refused("{\"mesh\": \"a\", \"grid\": {}}", CIPC_E_OUT_OF_RANGE, "t.json:1:1", "has 2 of");
+    assert_refused("{\"gird\": {}}", CIPC_E_UNKNOWN_KEY, "t.json:1:2 gird", "'grid'");
+    assert_refused("{\"grid\": {}}", CIPC_E_MISSING_KEY, "t.json:1:2 grid.size", "2 numbers");
+    assert_refused("{\"grid\": {\"size\": [1, 1]}}", CIPC_E_MISSING_KEY, "t.json:1:2 grid.cells", "2 integers");
+    assert_refused("{\"grid\": {\"size\": [1, 0], \"cells\": [1, 1]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:23 grid.size.1", "greater than 0");
+    assert_refused("{\"grid\": {\"size\": [1, 1], \"cells\": [0, 1]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:37 grid.cells.0", "at least 1");
+    assert_refused("{\"grid\": {\"size\": [1, 1], \"cells\": [1.5, 1]}}", CIPC_E_WRONG_TYPE, "t.json:1:37 grid.cells.0", "an integer");
+    assert_refused("{\"grid\": {\"size\": [1], \"cells\": [1, 1]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:11 grid.size", "must have 2");
+    assert_refused("{\"grid\": {\"size\": [1, 1], \"cells\": [9000, 9000]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:2 grid", "at most 10000000");
+    assert_refused("{\"irregular\": {\"size\": [1, 1], \"nodes\": 3}}", CIPC_E_OUT_OF_RANGE, "t.json:1:32 irregular.nodes", "at least 4");
+    assert_refused("{\"irregular\": {\"size\": [1, 1], \"nodes\": 9, \"seed\": -1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:44 irregular.seed",
+                   "at least 0");
+    assert_refused("{\"icosphere\": {\"radius\": 1, \"subdivisions\": 9}}", CIPC_E_OUT_OF_RANGE, "t.json:1:29 icosphere.subdivisions",
+                   "at most 8");
+    assert_refused("{\"icosphere\": {\"radius\": -1, \"subdivisions\": 1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:16 icosphere.radius",
+                   "greater than 0");
+    assert_refused("{\"icosphere\": {\"radius\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 icosphere.subdivisions", "missing");
+    assert_refused("{\"mesh\": 1}", CIPC_E_WRONG_TYPE, "t.json:1:2 mesh", "a string");
+    assert_refused("{\"mesh\": \"/nowhere/at/all.obj\"}", CIPC_E_MISSING_FILE, "t.json:1:2 mesh", "'/nowhere/at/all.obj' cannot be opened");
+    assert_refused("[]", CIPC_E_WRONG_TYPE, "t.json:1:1", "an object");
+}
+
+/* A path is relative to the scene file; the tree gets the absolute one; errors of the mesh keep their own file and line. */
+static void test_files(void **state)
+{
+    (void)state;
+    static const char good[] = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", bad[] = "v 0 0 0\nf 1 1 1\n";
+    char *folder = make_folder(), *good_path = write_file(folder, "good.obj", good, strlen(good)),
+         *bad_path = write_file(folder, "bad.obj", bad, strlen(bad));
+    char scene_path[600], absolute[4096], place[4200];
+    snprintf(scene_path, sizeof scene_path, "%s/t.json", folder);
+    cipc_mesh mesh;
+    scene_reader r = reader_of("{\"mesh\": \"good.obj\"}");
+    r.path = scene_path;
+    scene_cursor root = scene_root(r.root);
+    scene_read_shell(&r, &root, 1, &mesh);
+    assert_int_equal(r.status, CIPC_OK);
+    assert_int_equal(mesh.node_count, 3);
+    assert_non_null(realpath(good_path, absolute));
+    assert_string_equal(json_string_value(json_object_get(r.root, "mesh")), absolute);
+    cipc_mesh_free(&mesh);
+    scene_reader_free(&r);
+
+    r = reader_of("{\"mesh\": \"bad.obj\"}");
+    r.path = scene_path;
+    root = scene_root(r.root);
+    scene_read_shell(&r, &root, 1, &mesh);
+    snprintf(place, sizeof place, "%s:2", bad_path);
+    assert_rejection(&r, CIPC_E_BAD_MESH, place, "names a vertex twice");
+    scene_reader_free(&r);
+    free(good_path);
+    free(bad_path);
+    remove_folder(folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_generators),
+        cmocka_unit_test(test_the_seed_of_the_scene),
+        cmocka_unit_test(test_rejections),
+        cmocka_unit_test(test_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
