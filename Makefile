@@ -44,7 +44,7 @@ CLI_SOURCES     := $(filter-out src/cli/main.c,$(wildcard src/cli/*.c))
 MAIN_SOURCE     := $(wildcard src/cli/main.c)
 SUPPORT_SOURCES := $(wildcard tests/support/*.c)
 TEST_SOURCES    := $(wildcard tests/*/test_*.c)
-SOURCES         := $(LIBRARY_SOURCES) $(CLI_SOURCES) $(MAIN_SOURCE) $(SUPPORT_SOURCES) $(TEST_SOURCES)
+SOURCES         := $(wildcard bench/*.c) $(LIBRARY_SOURCES) $(CLI_SOURCES) $(MAIN_SOURCE) $(SUPPORT_SOURCES) $(TEST_SOURCES)
 HEADERS         := $(wildcard include/cipc/*.h)
 
 PROGRAM := $(if $(MAIN_SOURCE),$(BUILD)/cipc)
@@ -107,9 +107,9 @@ lint: ## cppcheck over src and include
 	cppcheck --quiet --std=c11 --enable=warning,performance,portability --inline-suppr --suppress=uninitvar --error-exitcode=1 \
 	    --library=ci/cppcheck.cfg -Iinclude -Isrc src
 
-bench: ## build, then run the benchmarks (bench/run); never part of a verdict
-	$(SUBMAKE) all
-	bench/run
+bench: ## build, then run the benchmarks (bench/run); BENCH=full for the long list; never part of a verdict
+	$(SUBMAKE) all benches
+	@BUILD=$(BUILD) bench/run $(BENCH)
 
 format: ## lay out all sources with clang-format
 	clang-format -i $(wildcard src/*/*.[ch] include/cipc/*.h tests/*/*.[ch])
@@ -173,6 +173,16 @@ $(TESTS): $(BUILD)/%: $(BUILD)/obj/%.o $(CLI_ARCHIVE) $(STATIC) $(TEST_SUPPORT)
 	$(call say,LD,$@)
 	$(Q)$(CC) $(ALL_LDFLAGS) $(TEST_LDFLAGS) -o $@ $< -Wl,--start-group $(CLI_ARCHIVE) $(STATIC) $(TEST_SUPPORT) -Wl,--end-group \
 	    $(PACKAGE_LIBS) -lcmocka
+
+# ---- Benchmarks -------------------------------------------------------------------------------------------------------------
+BENCHES := $(patsubst %.c,$(BUILD)/%,$(wildcard bench/*.c))
+.PHONY: benches
+benches: $(BENCHES)
+
+$(BENCHES): $(BUILD)/%: $(BUILD)/obj/%.o $(STATIC)
+	@mkdir -p $(@D)
+	$(call say,LD,$@)
+	$(Q)$(CC) $(ALL_LDFLAGS) -o $@ $^ $(PACKAGE_LIBS)
 
 # ---- Libraries and program --------------------------------------------------------------------------------------------------
 Q   = $(if $(V),,@)

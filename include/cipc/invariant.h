@@ -1,6 +1,6 @@
-/* cipc/invariant.h - the monitors: what must hold at every accepted line-search point, checked without any code of the solver.
- * Floor 6. Of the solver's floors they use the model's structs and the exact predicates only: no distance, barrier or CCD code, no active set,
- * a broad phase of their own (SPEC V.5). What each monitor proves, and what it does not: docs/monitors.md. */
+/* cipc/invariant.h - the monitors: what must hold at every accepted line-search point, checked without any code of the solver. Floor 6.
+ * Of the solver's floors they use the model's structs and the exact predicates only: no distance, barrier or CCD code, no active set, a
+ * broad phase of their own (SPEC V.5). What each monitor proves, and what it does not: docs/monitors.md. */
 #ifndef CIPC_INVARIANT_H
 #define CIPC_INVARIANT_H
 
@@ -9,52 +9,53 @@
 #include "cipc/base.h"
 #include "cipc/model.h"
 
-/* What one look at a state found. Everything but lists_made depends on the positions only, neither on the number of threads nor on earlier looks
- * (the counts exact_*, pairs_checked and crossings_checked: except for pairs so degenerate that the filter cannot measure them). */
+/* What one look at a state found. Everything but lists_made depends on the positions only, neither on the number of threads nor on
+ * earlier looks (the counts exact_*, pairs_checked and crossings_checked: except for pairs so degenerate that the filter cannot measure
+ * them). */
 typedef struct cipc_invariant_report {
-    double min_gap;            /* min over pairs within reach of d - xi, m (rounded to nearest); INFINITY: none within reach */
-    int min_gap_nodes[4];      /* the pair: -1 for unused; point first, or edge a then edge b */
+    double min_gap;       /* min over pairs within reach of d - xi, m (rounded to nearest); INFINITY: none within reach */
+    int min_gap_nodes[4]; /* the pair: -1 for unused; point first, or edge a then edge b */
     int min_gap_is_edge_edge;
-    double max_stretch;        /* largest principal stretch over all triangles of bodies that have a membrane or a limit */
-    int max_stretch_triangle;  /* -1: none */
-    double max_stretch_ratio;  /* largest (sigma_1 - 1)/(s - 1) over limited triangles; 0 if none */
-    long exact_gap_checks, exact_strain_checks;  /* how often the filter had to hand over to exact arithmetic */
-    long pairs_checked;        /* point-triangle and edge-edge pairs with d - xi <= reach */
-    long crossings_checked;    /* edge-triangle pairs that no separating plane was found for: decided by the exact predicate */
-    bool lists_made;           /* the lists of candidate pairs were made anew at this look */
+    double max_stretch;                         /* largest principal stretch over all triangles of bodies that have a membrane or a limit */
+    int max_stretch_triangle;                   /* -1: none */
+    double max_stretch_ratio;                   /* largest (sigma_1 - 1)/(s - 1) over limited triangles; 0 if none */
+    long exact_gap_checks, exact_strain_checks; /* how often the filter had to hand over to exact arithmetic */
+    long pairs_checked;                         /* point-triangle and edge-edge pairs with d - xi <= reach */
+    long crossings_checked; /* edge-triangle pairs that no separating plane was found for: decided by the exact predicate */
+    bool lists_made;        /* the lists of candidate pairs were made anew at this look */
 } cipc_invariant_report;
 
 typedef struct cipc_invariant_options {
-    double reach;              /* m, >= 0: pairs with d - xi <= reach are measured for min_gap (those with d <= xi always are) */
-    int threads;               /* >= 1 */
-    bool allow_fixed_fixed;    /* pairs of nodes that are all in fixed bodies are not checked (obstacles may interpenetrate): default true */
-    double margin;             /* m, >= 0: lists of candidates reach this much further, and serve until a node has moved more than half of it;
+    double reach;           /* m, >= 0: pairs with d - xi <= reach are measured for min_gap (those with d <= xi always are) */
+    int threads;            /* >= 1 */
+    bool allow_fixed_fixed; /* pairs of nodes that are all in fixed bodies are not checked (obstacles may interpenetrate): default true */
+    double margin;          /* m, >= 0: lists of candidates reach this much further, and serve until a node has moved more than half of it;
                                 * 0: made anew whenever a node has moved. Affects speed only */
 } cipc_invariant_options;
 /* reach 1e-3 m, 1 thread, fixed-fixed pairs not checked, margin 1e-3 m. */
 cipc_invariant_options cipc_invariant_options_default(void);
 
-/* The model must outlive the monitor. Not thread-safe: one monitor serves one caller (it works in threads by itself). options NULL: the defaults.
- * CIPC_E_OUT_OF_MEMORY; CIPC_E_OUT_OF_RANGE on options out of range. */
+/* The model must outlive the monitor. Not thread-safe: one monitor serves one caller (it works in threads by itself). options NULL: the
+ * defaults. CIPC_E_OUT_OF_MEMORY; CIPC_E_OUT_OF_RANGE on options out of range. */
 typedef struct cipc_monitor cipc_monitor;
 cipc_status cipc_monitor_create(cipc_monitor **monitor, const cipc_model *model, const cipc_invariant_options *options, cipc_error *error);
 void cipc_monitor_destroy(cipc_monitor *monitor);
 
-/* M8, M1, M2, M3, M4 on positions x[3 * node_count], in this order (M8 first: nothing else means anything on NaN). CIPC_OK, or CIPC_E_VIOLATED_* with the
- * pair, its nodes, bodies, values and thresholds in decimal and hexadecimal in error->what; or CIPC_E_OUT_OF_MEMORY.
- * *report (may be NULL) is filled as far as it got. */
+/* M8, M1, M2, M3, M4 on positions x[3 * node_count], in this order (M8 first: nothing else means anything on NaN). CIPC_OK, or
+ * CIPC_E_VIOLATED_* with the pair, its nodes, bodies, values and thresholds in decimal and hexadecimal in error->what; or
+ * CIPC_E_OUT_OF_MEMORY. *report (may be NULL) is filled as far as it got. */
 cipc_status cipc_monitor_check(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);
 
 /* The monitors one by one, same contract; each fills its own fields of *report and leaves the others as they are. */
-void cipc_invariant_report_init(cipc_invariant_report *report);                                                                                   /* nothing seen yet */
-cipc_status cipc_monitor_finite(const cipc_model *model, const double *x, cipc_error *error);                                                     /* M8 */
-cipc_status cipc_monitor_intersection(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);                  /* M1 */
-cipc_status cipc_monitor_gap(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);                           /* M2 */
-cipc_status cipc_monitor_strain(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);                        /* M3 */
-cipc_status cipc_monitor_inversion(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);                     /* M4 */
+void cipc_invariant_report_init(cipc_invariant_report *report);                               /* nothing seen yet */
+cipc_status cipc_monitor_finite(const cipc_model *model, const double *x, cipc_error *error); /* M8 */
+cipc_status cipc_monitor_intersection(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error); /* M1 */
+cipc_status cipc_monitor_gap(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);          /* M2 */
+cipc_status cipc_monitor_strain(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);       /* M3 */
+cipc_status cipc_monitor_inversion(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);    /* M4 */
 
-/* M6: energy decrease between consecutive accepted points, and the residual at convergence. `noise` >= 0 is the caller's derived bound on the rounding
- * error of the difference of the two energies: after - before <= noise, decided exactly. Non-finite numbers violate. */
+/* M6: energy decrease between consecutive accepted points, and the residual at convergence. `noise` >= 0 is the caller's derived bound on
+ * the rounding error of the difference of the two energies: after - before <= noise, decided exactly. Non-finite numbers violate. */
 cipc_status cipc_monitor_energy(double before, double after, double noise, cipc_error *error);
 /* 0 <= residual <= tolerance. */
 cipc_status cipc_monitor_residual(double residual, double tolerance, cipc_error *error);

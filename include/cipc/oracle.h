@@ -6,9 +6,9 @@
 #include <stdbool.h>
 #include "cipc/base.h"
 
-/* Exact sign of d^2 - xi^2 for the true distance d of point-triangle (edge_edge false; x = p, t0, t1, t2) or edge-edge (x = a0, a1, b0, b1), m,
- * and the squared distance rounded to nearest (ties to even) in *distance2 (may be NULL), m^2. xi >= 0. Any finite doubles; degenerate primitives
- * are the sets they are. Non-finite input proves nothing: -1, and NaN in *distance2. (SPEC V.2) */
+/* Exact sign of d^2 - xi^2 for the true distance d of point-triangle (edge_edge false; x = p, t0, t1, t2) or edge-edge (x = a0, a1, b0,
+ * b1), m, and the squared distance rounded to nearest (ties to even) in *distance2 (may be NULL), m^2. xi >= 0. Any finite doubles;
+ * degenerate primitives are the sets they are. Non-finite input proves nothing: -1, and NaN in *distance2. (SPEC V.2) */
 int cipc_exact_compare_distance(bool edge_edge, const double x[12], double xi, double *distance2);
 
 /* The gap d - xi rounded to nearest (ties to even), m; same arguments. Its sign is that of d - xi, unless it underflows to 0.

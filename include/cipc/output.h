@@ -49,6 +49,10 @@ cipc_status cipc_xdmf_write(const char *path, const char *h5_name, const cipc_mo
 /* Wavefront OBJ of a state, 17 significant digits, one group per body; written atomically. */
 cipc_status cipc_obj_write(const char *path, const cipc_model *model, const double *position, cipc_error *error);
 
+/* violation.json: which invariant broke where, with everything the monitors reported of the point. report may be NULL. Written atomically. */
+cipc_status cipc_violation_write(const char *path, const cipc_accepted_point *point, double time_before, const cipc_invariant_report *report,
+                                 const cipc_error *violation, cipc_error *error);
+
 /* Any text, written atomically (temporary name, rename). */
 cipc_status cipc_text_write(const char *path, const char *text, cipc_error *error);
 

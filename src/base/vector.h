@@ -4,6 +4,10 @@
 
 #include <math.h>
 
+/* The smaller and the larger of two numbers, inlined; NaN in b is passed on, NaN in a is not. */
+static inline double min2(double a, double b) { return a < b ? a : b; }
+static inline double max2(double a, double b) { return a > b ? a : b; }
+
 static inline void v3_sub(double r[3], const double a[3], const double b[3]) { for (int i = 0; i < 3; i++) r[i] = a[i] - b[i]; }
 static inline void v3_add(double r[3], const double a[3], const double b[3]) { for (int i = 0; i < 3; i++) r[i] = a[i] + b[i]; }
 static inline void v3_scale(double r[3], double s, const double a[3]) { for (int i = 0; i < 3; i++) r[i] = s * a[i]; }

@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vector.h"
 
 /* Queries are cut into this many pieces, whatever the number of threads, so that the answer's order never depends on it. */
 enum { PIECES = 64 };
@@ -20,11 +21,11 @@ struct cipc_broad_phase {
     cipc_box *node_boxes, *triangle_boxes, *edge_boxes;
     cipc_box_tree *triangle_tree, *edge_tree;
     pair_list pieces[PIECES];
-    int finds; /* since the trees were built */
+    int refits; /* since the trees were built */
 };
 
 /* Trees are rebuilt for the present positions after so many refits: a refit tree stays right, but grows loose as the mesh deforms. */
-enum { FINDS_PER_BUILD = 32 };
+enum { REFITS_PER_BUILD = 32 };
 
 static void append_pair(pair_list *list, int a, int b)
 {
@@ -73,8 +74,8 @@ static cipc_box box_union(const cipc_box *a, const cipc_box *b)
 {
     cipc_box r;
     for (int k = 0; k < 3; k++) {
-        r.lo[k] = fmin(a->lo[k], b->lo[k]);
-        r.hi[k] = fmax(a->hi[k], b->hi[k]);
+        r.lo[k] = min2(a->lo[k], b->lo[k]);
+        r.hi[k] = max2(a->hi[k], b->hi[k]);
     }
     return r;
 }
@@ -87,9 +88,9 @@ static void swept_boxes(cipc_broad_phase *b, const cipc_model *model, const doub
         double half = 0.5 * (model->bodies[model->node_body[i]].offset + reach) * (1 + 0x1p-40);
         for (int k = 0; k < 3; k++) {
             double from = x[3 * i + k], to = p ? from + t_max * p[3 * i + k] : from;
-            double inflation = half + 4 * DBL_EPSILON * fmax(fabs(from), fabs(to));
-            b->node_boxes[i].lo[k] = fmin(from, to) - inflation;
-            b->node_boxes[i].hi[k] = fmax(from, to) + inflation;
+            double inflation = half + 4 * DBL_EPSILON * max2(fabs(from), fabs(to));
+            b->node_boxes[i].lo[k] = min2(from, to) - inflation;
+            b->node_boxes[i].hi[k] = max2(from, to) + inflation;
         }
     }
     for (int t = 0; t < model->triangle_count; t++) {
@@ -103,7 +104,9 @@ static void swept_boxes(cipc_broad_phase *b, const cipc_model *model, const doub
 
 static cipc_status update_trees(cipc_broad_phase *b, const cipc_model *model, cipc_error *error)
 {
-    if (b->triangle_tree && b->finds++ % FINDS_PER_BUILD != 0) {
+    /* After a failure one tree or both may be missing. */
+    if (b->triangle_tree && b->edge_tree && b->refits < REFITS_PER_BUILD) {
+        b->refits++;
         cipc_box_tree_refit(b->triangle_tree, b->triangle_boxes);
         cipc_box_tree_refit(b->edge_tree, b->edge_boxes);
         return CIPC_OK;
@@ -111,6 +114,7 @@ static cipc_status update_trees(cipc_broad_phase *b, const cipc_model *model, ci
     cipc_box_tree_destroy(b->triangle_tree);
     cipc_box_tree_destroy(b->edge_tree);
     b->triangle_tree = b->edge_tree = NULL;
+    b->refits = 0;
     cipc_status status = cipc_box_tree_create(&b->triangle_tree, b->triangle_boxes, model->triangle_count, error);
     return status ? status : cipc_box_tree_create(&b->edge_tree, b->edge_boxes, model->edge_count, error);
 }

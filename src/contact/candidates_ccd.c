@@ -4,6 +4,7 @@
 #include <math.h>
 
 #include "base/vector.h"
+#include "contact/additive_ccd.h"
 #include "contact/stencil.h"
 
 /* Do the two primitives' boxes, swept over [0, t] and grown by xi, stay apart? The far corner x + t p is rounded like the path itself; the slack
@@ -15,9 +16,9 @@ static bool swept_apart(const double y[12], const double q[12], int first, doubl
         for (int i = 0; i < 4; i++) {
             double from = y[3 * i + k], to = from + t * q[3 * i + k];
             int side = i >= first;
-            lo[side] = fmin(lo[side], fmin(from, to));
-            hi[side] = fmax(hi[side], fmax(from, to));
-            size = fmax(size, fmax(fabs(from), fabs(to)));
+            lo[side] = min2(lo[side], min2(from, to));
+            hi[side] = max2(hi[side], max2(from, to));
+            size = max2(size, max2(fabs(from), fabs(to)));
         }
         double slack = xi + 0x1p-50 * (size + xi);
         if (lo[0] - hi[1] > slack || lo[1] - hi[0] > slack) return true;
@@ -25,24 +26,30 @@ static bool swept_apart(const double y[12], const double q[12], int first, doubl
     return false;
 }
 
+static const int *candidate(const cipc_candidates *c, long index)
+{
+    return index < c->point_triangle_count ? c->point_triangle[index] : c->edge_edge[index - c->point_triangle_count];
+}
+
 typedef struct earliest {
     double t;
     long index;
 } earliest;
 
-/* Each pair's result does not depend on t_max unless it is larger, so the minimum over pairs does not depend on their order. */
+/* (21): every pair is asked with the same t_max - the end of the path decides whether a gap is an early hit (19) - and may only give up early when
+ * another pair has hit before. So the minimum over pairs does not depend on their order. */
 static void test_candidate(const cipc_model *model, const cipc_candidates *c, const double *x, const double *p, double t_max, long index,
                            const cipc_ccd_options *options, earliest *best)
 {
     bool edge_edge = index >= c->point_triangle_count;
     int nodes[4];
     double y[12], q[12];
-    cipc_stencil_nodes(model, edge_edge, edge_edge ? c->edge_edge[index - c->point_triangle_count] : c->point_triangle[index], nodes);
+    cipc_stencil_nodes(model, edge_edge, candidate(c, index), nodes);
     cipc_stencil_positions(x, nodes, y);
     cipc_stencil_positions(p, nodes, q);
     double xi = cipc_model_pair_offset(model, nodes[0], nodes[2]);
-    if (swept_apart(y, q, edge_edge ? 2 : 1, options->gap_first ? t_max : best->t, xi)) return;
-    cipc_ccd_result r = cipc_additive_ccd(edge_edge ? CIPC_EDGE_EDGE : CIPC_POINT_TRIANGLE, y, q, xi, best->t, options);
+    if (swept_apart(y, q, edge_edge ? 2 : 1, options->gap_first ? 1 : t_max, xi)) return; /* the released code looks at the whole path */
+    cipc_ccd_result r = cipc_additive_ccd_until(edge_edge ? CIPC_EDGE_EDGE : CIPC_POINT_TRIANGLE, y, q, xi, t_max, best->t, options);
     if (r.hit && (r.toi < best->t || best->index < 0)) {
         best->t = r.toi;
         best->index = index;
@@ -62,13 +69,9 @@ double cipc_candidates_ccd(const cipc_model *model, const cipc_candidates *candi
 #pragma omp critical
         if (mine.index >= 0 && (mine.t < best.t || (mine.t == best.t && (best.index < 0 || mine.index < best.index)))) best = mine;
     }
-    if (nodes) {
-        for (int i = 0; i < 4; i++) nodes[i] = -1;
-        if (best.index >= 0) {
-            bool ee = best.index >= candidates->point_triangle_count;
-            cipc_stencil_nodes(model, ee, ee ? candidates->edge_edge[best.index - candidates->point_triangle_count] : candidates->point_triangle[best.index], nodes);
-            if (edge_edge) *edge_edge = ee;
-        }
-    }
+    bool ee = best.index >= candidates->point_triangle_count;
+    if (edge_edge) *edge_edge = ee;
+    for (int i = 0; nodes && i < 4; i++) nodes[i] = -1;
+    if (nodes && best.index >= 0) cipc_stencil_nodes(model, ee, candidate(candidates, best.index), nodes);
     return best.t;
 }

@@ -60,14 +60,14 @@ static bool boxes_apart(const double y[12], int first, double distance)
     for (int k = 0; k < 3; k++) {
         double lo_a = y[k], hi_a = y[k], lo_b = y[9 + k], hi_b = y[9 + k];
         if (first == 2) {
-            lo_a = fmin(lo_a, y[3 + k]);
-            hi_a = fmax(hi_a, y[3 + k]);
+            lo_a = min2(lo_a, y[3 + k]);
+            hi_a = max2(hi_a, y[3 + k]);
         } else {
-            lo_b = fmin(lo_b, y[3 + k]);
-            hi_b = fmax(hi_b, y[3 + k]);
+            lo_b = min2(lo_b, y[3 + k]);
+            hi_b = max2(hi_b, y[3 + k]);
         }
-        lo_b = fmin(lo_b, y[6 + k]);
-        hi_b = fmax(hi_b, y[6 + k]);
+        lo_b = min2(lo_b, y[6 + k]);
+        hi_b = max2(hi_b, y[6 + k]);
         if (lo_a - hi_b > distance || lo_b - hi_a > distance) return true;
     }
     return false;

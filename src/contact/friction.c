@@ -73,7 +73,12 @@ bool cipc_friction_from_contact(cipc_friction *friction, const cipc_contact *con
     friction->coefficient = mu * lambda;
     friction->eps = eps;
     cipc_closest_weights(kind, y, friction->weights);
-    for (int i = 0; i < contact->count; i++) v3_axpy(closest, friction->weights[i], y + 3 * i);
+    /* The weights sum to 0: relative to the first node nothing is lost far from the origin. */
+    for (int i = 1; i < contact->count; i++) {
+        double r[3];
+        v3_sub(r, y + 3 * i, y);
+        v3_axpy(closest, friction->weights[i], r);
+    }
     tangent_basis(kind, y, closest, friction->basis);
     return true;
 }

@@ -2,10 +2,17 @@
 #include "implicit/linear_solver.h"
 
 #include <cholmod.h>
+#include <omp.h>
 #include <string.h>
+
+/* An order is kept for the patterns that follow (contacts come and go, the mesh stays) until the factor has grown by this much since it was made. */
+static const double largest_growth = 1.25;
 
 struct cipc_linear_solver {
     cholmod_common common;
+    int *order;           /* fill-reducing order of the scalars, 3 n; NULL: none yet */
+    int n;                /* block rows it is for */
+    double fresh_entries; /* entries of the factor when the order was fresh; 0: it is being made */
     cholmod_factor *factor;
     cholmod_dense *solution, *workspace_y, *workspace_e;
 };
@@ -28,6 +35,7 @@ cipc_status cipc_linear_solver_create(cipc_linear_solver **solver, cipc_error *e
 void cipc_linear_solver_destroy(cipc_linear_solver *s)
 {
     if (!s) return;
+    cipc_free(s->order);
     cholmod_free_factor(&s->factor, &s->common);
     cholmod_free_dense(&s->solution, &s->common);
     cholmod_free_dense(&s->workspace_y, &s->common);
@@ -60,8 +68,11 @@ static cholmod_sparse block_graph_view(const cipc_block_matrix *A)
 }
 
 /* Fill-reducing order of the block graph: the better of AMD and METIS by fill, expanded to scalars. */
-static cipc_status order(cipc_linear_solver *s, const cipc_block_matrix *A, int *scalar_order, cipc_error *error)
+static cipc_status make_order(cipc_linear_solver *s, const cipc_block_matrix *A, cipc_error *error)
 {
+    cipc_free(s->order);
+    s->order = cipc_alloc(3 * (size_t)A->n, sizeof(int));
+    if (!s->order) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "linear solver", "no memory to order the matrix");
     cholmod_sparse graph = block_graph_view(A);
     s->common.nmethods = 2;
     s->common.method[0].ordering = CHOLMOD_AMD;
@@ -70,34 +81,46 @@ static cipc_status order(cipc_linear_solver *s, const cipc_block_matrix *A, int 
     cholmod_factor *symbolic = cholmod_analyze(&graph, &s->common);
     if (!symbolic) return solver_error(s, "order the matrix", error);
     const int *block_order = symbolic->Perm;
-    for (int k = 0; k < 3 * A->n; k++) scalar_order[k] = 3 * block_order[k / 3] + k % 3;
+    for (int k = 0; k < 3 * A->n; k++) s->order[k] = 3 * block_order[k / 3] + k % 3;
     cholmod_free_factor(&symbolic, &s->common);
+    s->n = A->n;
+    s->fresh_entries = 0;
     return CIPC_OK;
+}
+
+/* Symbolic factorisation in the order at hand. */
+static cipc_status analyze_in_order(cipc_linear_solver *s, const cipc_block_matrix *A, cipc_error *error)
+{
+    cholmod_sparse view = scalar_view(A);
+    s->common.nmethods = 1;
+    s->common.method[0].ordering = CHOLMOD_GIVEN;
+    s->common.supernodal = CHOLMOD_AUTO;
+    cholmod_free_factor(&s->factor, &s->common);
+    s->factor = cholmod_analyze_p(&view, s->order, NULL, 0, &s->common);
+    return s->factor ? CIPC_OK : solver_error(s, "analyse the matrix", error);
 }
 
 cipc_status cipc_linear_solver_analyze(cipc_linear_solver *s, const cipc_block_matrix *A, cipc_error *error)
 {
-    cholmod_free_factor(&s->factor, &s->common);
-    int *scalar_order = cipc_alloc(3 * (size_t)A->n, sizeof(int));
-    if (!scalar_order) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "linear solver", "no memory to order the matrix");
-    cipc_status status = order(s, A, scalar_order, error);
-    if (!status) {
-        cholmod_sparse view = scalar_view(A);
-        s->common.nmethods = 1;
-        s->common.method[0].ordering = CHOLMOD_GIVEN;
-        s->common.supernodal = CHOLMOD_AUTO;
-        s->factor = cholmod_analyze_p(&view, scalar_order, NULL, 0, &s->common);
-        if (!s->factor) status = solver_error(s, "analyse the matrix", error);
+    cipc_status status = CIPC_OK;
+    if (s->order && s->n == A->n) {
+        status = analyze_in_order(s, A, error);
+        if (status || s->common.lnz <= largest_growth * s->fresh_entries) return status;
     }
-    cipc_free(scalar_order);
+    status = make_order(s, A, error);
+    if (!status) status = analyze_in_order(s, A, error);
+    if (!status) s->fresh_entries = s->common.lnz;
     return status;
 }
 
 cipc_status cipc_linear_solver_factorize(cipc_linear_solver *s, const cipc_block_matrix *A, int threads, bool *definite, cipc_error *error)
 {
-    (void)threads;
     cholmod_sparse view = scalar_view(A);
+    /* CHOLMOD opens parallel regions of its own accord; one thread asked for is one thread used. */
+    int levels = omp_get_max_active_levels();
+    if (threads == 1) omp_set_max_active_levels(0);
     cholmod_factorize(&view, s->factor, &s->common);
+    omp_set_max_active_levels(levels);
     *definite = s->common.status == CHOLMOD_OK;
     if (s->common.status == CHOLMOD_OK || s->common.status == CHOLMOD_NOT_POSDEF) return CIPC_OK;
     return solver_error(s, "factorise the matrix", error);

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* QL needs two or three sweeps an eigenvalue; 50 mean that the input was not finite. */
+/* QL needs two or three sweeps an eigenvalue; 50 mean that the input was not finite or that its squares underflow. */
 enum { MAX_SWEEPS = 50 };
 
 /* Matrices are stored with rows of CIPC_EIGEN_MAX. The functions are inlined into one body for each size that assembly needs, so that their loops have
@@ -79,7 +79,7 @@ INLINE int ql(int n, double *d, double *e, matrix R)
     for (int l = 0; l < n; l++)
         for (int sweep = 0;; sweep++) {
             int m = l;
-            while (m < n - 1 && fabs(e[m]) > DBL_EPSILON * (fabs(d[m]) + fabs(d[m + 1]))) m++;
+            while (m < n - 1 && !(fabs(e[m]) <= DBL_EPSILON * (fabs(d[m]) + fabs(d[m + 1])))) m++; /* true of NaN */
             if (m == l) break;
             if (sweep == MAX_SWEEPS) return -1;
             ql_sweep(n, l, m, d, e, R);
@@ -102,8 +102,10 @@ INLINE int decompose(int n, const double *A, double *w, double *V)
         if (i + 1 < n) e[i] = T[i + 1][i];
     }
     int failed = ql(n, w, e, R);
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < n; k++) V[k * n + i] = R[k][i];
+    for (int k = 0; k < n; k++) {
+        if (!isfinite(w[k])) failed = -1;
+        for (int i = 0; i < n; i++) V[k * n + i] = R[k][i];
+    }
     return failed;
 }
 

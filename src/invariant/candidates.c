@@ -20,7 +20,7 @@ enum { PART_SIZE = 16 };
 /* The kinds of primitives of the two sides of a candidate kind. */
 static const int sides[CIPC_CANDIDATE_KINDS][2] = {{CIPC_POINTS, CIPC_TRIANGLES}, {CIPC_EDGES, CIPC_EDGES}, {CIPC_EDGES, CIPC_TRIANGLES}};
 
-double cipc_candidates_offset(const cipc_model *model, int node_a, int node_b)
+double invariant_candidates_offset(const cipc_model *model, int node_a, int node_b)
 {
     return 0.5 * (model->bodies[model->node_body[node_a]].offset + model->bodies[model->node_body[node_b]].offset);
 }
@@ -42,30 +42,28 @@ static int parts_of(int count)
     return (count + PART_SIZE - 1) / PART_SIZE;
 }
 
-static const cipc_primitives *first_side(const cipc_candidates *c, cipc_candidate_kind kind)
+static const cipc_primitives *first_side(const invariant_candidates *c, invariant_candidate_kind kind)
 {
     return &c->primitives[sides[kind][0]];
 }
 
-static const cipc_primitives *second_side(const cipc_candidates *c, cipc_candidate_kind kind)
+static const cipc_primitives *second_side(const invariant_candidates *c, invariant_candidate_kind kind)
 {
     return &c->primitives[sides[kind][1]];
 }
 
-static bool make_parts(cipc_candidates *c)
+static bool make_parts(invariant_candidates *c)
 {
     for (int kind = 0; kind < CIPC_CANDIDATE_KINDS; kind++) {
-        c->part_count += parts_of(first_side(c, (cipc_candidate_kind)kind)->tree.patch_count[0]);
+        c->part_count += parts_of(first_side(c, (invariant_candidate_kind)kind)->tree.patch_count[0]);
     }
     c->parts = cipc_alloc((size_t)c->part_count, sizeof *c->parts);
-    if (c->parts == NULL) {
-        return false;
-    }
-    cipc_candidate_part *part = c->parts;
+    if (c->parts == NULL) { return false; }
+    invariant_candidate_part *part = c->parts;
     for (int kind = 0; kind < CIPC_CANDIDATE_KINDS; kind++) {
-        int count = first_side(c, (cipc_candidate_kind)kind)->tree.patch_count[0];
+        int count = first_side(c, (invariant_candidate_kind)kind)->tree.patch_count[0];
         for (int first = 0; first < count; first += PART_SIZE, part++) {
-            part->kind = (cipc_candidate_kind)kind;
+            part->kind = (invariant_candidate_kind)kind;
             part->first = first;
             part->last = count - first > PART_SIZE ? first + PART_SIZE : count;
         }
@@ -76,14 +74,12 @@ static bool make_parts(cipc_candidates *c)
 static bool all_fixed(const bool *fixed, const int *nodes, int n)
 {
     for (int i = 0; i < n; i++) {
-        if (!fixed[nodes[i]]) {
-            return false;
-        }
+        if (!fixed[nodes[i]]) { return false; }
     }
     return true;
 }
 
-static bool init_primitives(cipc_candidates *c, cipc_primitives *p, int kind)
+static bool init_primitives(invariant_candidates *c, cipc_primitives *p, int kind)
 {
     const cipc_model *m = c->model;
     const int *const nodes[] = {c->point_nodes, (const int *)m->edges, (const int *)m->triangles};
@@ -92,16 +88,15 @@ static bool init_primitives(cipc_candidates *c, cipc_primitives *p, int kind)
     p->size = kind + 1;
     p->nodes = nodes[kind];
     p->order = cipc_alloc((size_t)p->count, sizeof *p->order);
-    if (!cipc_patch_tree_init(&p->tree, p->count) || p->order == NULL || !cipc_rest_order(p->order, m, p->nodes, p->size, p->count, c->fixed)) {
+    if (!cipc_patch_tree_init(&p->tree, p->count) || p->order == NULL ||
+        !cipc_rest_order(p->order, m, p->nodes, p->size, p->count, c->fixed)) {
         return false;
     }
-    while (p->moving < p->count && !all_fixed(c->fixed, &p->nodes[p->size * p->order[p->moving]], p->size)) {
-        p->moving++;
-    }
+    while (p->moving < p->count && !all_fixed(c->fixed, &p->nodes[p->size * p->order[p->moving]], p->size)) { p->moving++; }
     return true;
 }
 
-bool cipc_candidates_init(cipc_candidates *c, const cipc_model *model, double reach, double margin, int threads, bool skip_fixed)
+bool invariant_candidates_init(invariant_candidates *c, const cipc_model *model, double reach, double margin, int threads, bool skip_fixed)
 {
     memset(c, 0, sizeof *c);
     c->model = model;
@@ -112,22 +107,18 @@ bool cipc_candidates_init(cipc_candidates *c, const cipc_model *model, double re
     c->point_nodes = cipc_alloc(n, sizeof *c->point_nodes);
     c->fixed = cipc_alloc(n, sizeof *c->fixed);
     c->made_at = cipc_alloc(3 * n, sizeof *c->made_at);
-    if (c->point_nodes == NULL || c->fixed == NULL || c->made_at == NULL) {
-        return false;
-    }
+    if (c->point_nodes == NULL || c->fixed == NULL || c->made_at == NULL) { return false; }
     for (int i = 0; i < model->node_count; i++) {
         c->point_nodes[i] = i;
         c->fixed[i] = skip_fixed && model->bodies[model->node_body[i]].fixed;
     }
     for (int kind = 0; kind < CIPC_PRIMITIVE_KINDS; kind++) {
-        if (!init_primitives(c, &c->primitives[kind], kind)) {
-            return false;
-        }
+        if (!init_primitives(c, &c->primitives[kind], kind)) { return false; }
     }
     return make_parts(c);
 }
 
-void cipc_candidates_free(cipc_candidates *c)
+void invariant_candidates_free(invariant_candidates *c)
 {
     for (int kind = 0; kind < CIPC_PRIMITIVE_KINDS; kind++) {
         cipc_free(c->primitives[kind].order);
@@ -146,9 +137,9 @@ void cipc_candidates_free(cipc_candidates *c)
 
 /* --- boxes --- */
 
-/* How far a primitive's box is inflated, so that two primitives within xi + reach + margin of one another have boxes that overlap: xi is half of the sum of
- * the two bodies' offsets. */
-static double inflation(const cipc_candidates *c, int node)
+/* How far a primitive's box is inflated, so that two primitives within xi + reach + margin of one another have boxes that overlap: xi is
+ * half of the sum of the two bodies' offsets. */
+static double inflation(const invariant_candidates *c, int node)
 {
     double offset = c->model->bodies[c->model->node_body[node]].offset;
     return 0.5 * (offset + c->reach + c->margin) * ROUND_UP;
@@ -172,7 +163,7 @@ static cipc_patch_box inflated_box(const int *nodes, int n, const double *x, dou
     return box;
 }
 
-static void make_boxes(const cipc_candidates *c, int kind, const double *x, cipc_patch_tree *tree)
+static void make_boxes(const invariant_candidates *c, int kind, const double *x, cipc_patch_tree *tree)
 {
     const cipc_primitives *p = &c->primitives[kind];
     for (int place = 0; place < p->count; place++) {
@@ -186,41 +177,34 @@ static void make_boxes(const cipc_candidates *c, int kind, const double *x, cipc
 /* --- pairs --- */
 
 /* Do the primitives share a node? Lower edge first; without branches, for this is asked of every pair of boxes that overlap. */
-static bool is_incident(cipc_candidate_kind kind, const int *a, const int *b)
+static bool is_incident(invariant_candidate_kind kind, const int *a, const int *b)
 {
     bool shared = (a[0] == b[0]) | (a[0] == b[1]);
-    if (kind != CIPC_CANDIDATE_POINT_TRIANGLE) {
-        shared |= (a[1] == b[0]) | (a[1] == b[1]);
-    }
-    if (kind != CIPC_CANDIDATE_EDGE_EDGE) {
-        shared |= a[0] == b[2];
-    }
+    if (kind != CIPC_CANDIDATE_POINT_TRIANGLE) { shared |= (a[1] == b[0]) | (a[1] == b[1]); }
+    if (kind != CIPC_CANDIDATE_EDGE_EDGE) { shared |= a[0] == b[2]; }
     return kind == CIPC_CANDIDATE_EDGE_TRIANGLE ? shared | (a[1] == b[2]) : shared;
 }
 
 /* Is the pair proven to be so far apart that it stays out of reach while the lists serve? */
-static bool is_out_of_reach(const cipc_candidates *c, cipc_candidate_kind kind, const int *a, int na, const int *b, int nb, const double *x)
+static bool is_out_of_reach(const invariant_candidates *c, invariant_candidate_kind kind, const int *a, int na, const int *b, int nb,
+                            const double *x)
 {
     double stencil[15];
     cipc_gather(stencil, x, a, na);
     cipc_gather(&stencil[3 * na], x, b, nb);
-    if (kind == CIPC_CANDIDATE_EDGE_TRIANGLE) {
-        return cipc_edge_triangle_far(stencil, &stencil[6], c->margin);
-    }
-    double enough = (cipc_candidates_offset(c->model, a[0], b[0]) + c->reach + c->margin) * ROUND_UP;
-    cipc_separation s = kind == CIPC_CANDIDATE_POINT_TRIANGLE ? cipc_separate_point_triangle(stencil, enough)
-                                                              : cipc_separate_edge_edge(stencil, enough);
+    if (kind == CIPC_CANDIDATE_EDGE_TRIANGLE) { return cipc_edge_triangle_far(stencil, &stencil[6], c->margin); }
+    double enough = (invariant_candidates_offset(c->model, a[0], b[0]) + c->reach + c->margin) * ROUND_UP;
+    cipc_separation s =
+        kind == CIPC_CANDIDATE_POINT_TRIANGLE ? cipc_separate_point_triangle(stencil, enough) : cipc_separate_edge_edge(stencil, enough);
     return s.lower > enough;
 }
 
-static bool append_pair(cipc_candidate_part *part, int a, int b)
+static bool append_pair(invariant_candidate_part *part, int a, int b)
 {
     if (part->count == part->capacity) {
         int capacity = 2 * part->capacity + 64;
-        int (*grown)[2] = cipc_realloc(part->pairs, (size_t)capacity, sizeof *grown);
-        if (grown == NULL) {
-            return false;
-        }
+        int(*grown)[2] = cipc_realloc(part->pairs, (size_t)capacity, sizeof *grown);
+        if (grown == NULL) { return false; }
         part->pairs = grown;
         part->capacity = capacity;
     }
@@ -231,7 +215,7 @@ static bool append_pair(cipc_candidate_part *part, int a, int b)
 }
 
 /* Keep primitive a of the first side and b of the second, unless they share a node or are proven out of reach. */
-static bool offer_pair(const cipc_candidates *c, cipc_candidate_part *part, int a, int b, const double *x)
+static bool offer_pair(const invariant_candidates *c, invariant_candidate_part *part, int a, int b, const double *x)
 {
     const cipc_primitives *pa = first_side(c, part->kind), *pb = second_side(c, part->kind);
     if (part->kind == CIPC_CANDIDATE_EDGE_EDGE && b < a) {
@@ -244,9 +228,11 @@ static bool offer_pair(const cipc_candidates *c, cipc_candidate_part *part, int 
     return skip || append_pair(part, a, b);
 }
 
-/* The places of the second side that the primitive at `place` of the first is to meet, [begin, end). The fixed come last in the order: a moving primitive meets all, a
- * fixed one the moving only; an edge meets the edges after it. */
-typedef struct place_range { int begin, end; } place_range;
+/* The places of the second side that the primitive at `place` of the first is to meet, [begin, end). The fixed come last in the order: a
+ * moving primitive meets all, a fixed one the moving only; an edge meets the edges after it. */
+typedef struct place_range {
+    int begin, end;
+} place_range;
 
 static inline place_range range_to_meet(const cipc_primitives *first, const cipc_primitives *second, int place)
 {
@@ -255,105 +241,85 @@ static inline place_range range_to_meet(const cipc_primitives *first, const cipc
 
 /* One patch of each side, and what is needed to compare their primitives. */
 typedef struct patch_pair {
-    const cipc_candidates *c;
+    const invariant_candidates *c;
     const cipc_primitives *first, *second;
     const double *x;
     int asking, asked;
 } patch_pair;
 
 /* The pairs of the primitive at one place of the asking patch with those of the asked one. */
-static bool meet_item(const patch_pair *p, cipc_candidate_part *part, int place)
+static bool meet_item(const patch_pair *p, invariant_candidate_part *part, int place)
 {
     place_range range = range_to_meet(p->first, p->second, place);
     cipc_patch_box box = cipc_patch_tree_item_box(&p->first->tree, place);
     for (unsigned bits = cipc_patch_overlaps(&p->second->tree.levels[0][p->asked], &box); bits != 0; bits &= bits - 1) {
         int other = p->asked * CIPC_PATCH_SIZE + cipc_lowest_bit(bits);
         bool meets = other >= range.begin && other < range.end;
-        if (meets && !offer_pair(p->c, part, p->first->order[place], p->second->order[other], p->x)) {
-            return false;
-        }
+        if (meets && !offer_pair(p->c, part, p->first->order[place], p->second->order[other], p->x)) { return false; }
     }
     return true;
 }
 
-static bool meet_patch(const patch_pair *p, cipc_candidate_part *part)
+static bool meet_patch(const patch_pair *p, invariant_candidate_part *part)
 {
     cipc_patch_box box = cipc_patch_tree_patch_box(&p->second->tree, p->asked);
     for (unsigned bits = cipc_patch_overlaps(&p->first->tree.levels[0][p->asking], &box); bits != 0; bits &= bits - 1) {
-        if (!meet_item(p, part, p->asking * CIPC_PATCH_SIZE + cipc_lowest_bit(bits))) {
-            return false;
-        }
+        if (!meet_item(p, part, p->asking * CIPC_PATCH_SIZE + cipc_lowest_bit(bits))) { return false; }
     }
     return true;
 }
 
 /* All pairs of the primitives of one patch of the first side. */
-static bool search_patch(const cipc_candidates *c, cipc_candidate_part *part, int patch, const double *x)
+static bool search_patch(const invariant_candidates *c, invariant_candidate_part *part, int patch, const double *x)
 {
     patch_pair p = {c, first_side(c, part->kind), second_side(c, part->kind), x, patch, 0};
     /* The first place of a patch meets the most. */
     place_range range = range_to_meet(p.first, p.second, patch * CIPC_PATCH_SIZE);
     cipc_patch_box box = cipc_patch_tree_patch_box(&p.first->tree, patch);
     part->patches.count = 0;
-    if (!cipc_patch_tree_query(&p.second->tree, &box, range.begin, range.end, &part->patches)) {
-        return false;
-    }
+    if (!cipc_patch_tree_query(&p.second->tree, &box, range.begin, range.end, &part->patches)) { return false; }
     for (int i = 0; i < part->patches.count; i++) {
         p.asked = part->patches.places[i];
-        if (!meet_patch(&p, part)) {
-            return false;
-        }
+        if (!meet_patch(&p, part)) { return false; }
     }
     return true;
 }
 
-static void search_part(const cipc_candidates *c, cipc_candidate_part *part, const double *x)
+static void search_part(const invariant_candidates *c, invariant_candidate_part *part, const double *x)
 {
     part->count = 0;
     part->failed = false;
-    for (int patch = part->first; patch < part->last && !part->failed; patch++) {
-        part->failed = !search_patch(c, part, patch, x);
-    }
+    for (int patch = part->first; patch < part->last && !part->failed; patch++) { part->failed = !search_patch(c, part, patch, x); }
 }
 
-static bool make_lists(cipc_candidates *c, const double *x)
+static bool make_lists(invariant_candidates *c, const double *x)
 {
 #pragma omp parallel for schedule(dynamic) num_threads(c->threads) if (c->threads > 1)
-    for (int kind = 0; kind < CIPC_PRIMITIVE_KINDS; kind++) {
-        make_boxes(c, kind, x, &c->primitives[kind].tree);
-    }
+    for (int kind = 0; kind < CIPC_PRIMITIVE_KINDS; kind++) { make_boxes(c, kind, x, &c->primitives[kind].tree); }
 #pragma omp parallel for schedule(dynamic) num_threads(c->threads) if (c->threads > 1)
+    for (int i = 0; i < c->part_count; i++) { search_part(c, &c->parts[i], x); }
     for (int i = 0; i < c->part_count; i++) {
-        search_part(c, &c->parts[i], x);
-    }
-    for (int i = 0; i < c->part_count; i++) {
-        if (c->parts[i].failed) {
-            return false;
-        }
+        if (c->parts[i].failed) { return false; }
     }
     return true;
 }
 
-/* Have all nodes stayed within half the margin of where the lists were made? A distance then changed by at most the margin: each of its two primitives moved
- * by at most half of it. */
-static bool still_valid(const cipc_candidates *c, const double *x)
+/* Have all nodes stayed within half the margin of where the lists were made? A distance then changed by at most the margin: each of its
+ * two primitives moved by at most half of it. */
+static bool still_valid(const invariant_candidates *c, const double *x)
 {
     size_t n = (size_t)c->model->node_count;
     /* Seven roundings in the sum of squares and in the limit: far below the 2^-40 taken off. */
     double limit = 0.25 * c->margin * c->margin * (1 - 0x1p-40);
-    if (!c->made || !(limit > SMALLEST_SQUARE)) {
-        return c->made && memcmp(x, c->made_at, 3 * n * sizeof *x) == 0;
-    }
+    if (!c->made || !(limit > SMALLEST_SQUARE)) { return c->made && memcmp(x, c->made_at, 3 * n * sizeof *x) == 0; }
     for (size_t i = 0; i < n; i++) {
         double dx = x[3 * i] - c->made_at[3 * i], dy = x[3 * i + 1] - c->made_at[3 * i + 1], dz = x[3 * i + 2] - c->made_at[3 * i + 2];
-        if (!(dx * dx + dy * dy + dz * dz <= limit)) {
-            return false;
-        }
+        if (!(dx * dx + dy * dy + dz * dz <= limit)) { return false; }
     }
     return true;
 }
 
-bool cipc_candidates_update(cipc_candidates *c, const double *x, bool *made_now)
+bool invariant_candidates_update(invariant_candidates *c, const double *x, bool *made_now)
 {
     *made_now = !still_valid(c, x);
     if (*made_now) {

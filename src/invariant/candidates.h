@@ -1,5 +1,6 @@
-/* Candidate pairs of the monitors M1 and M2: every point-triangle and edge-edge pair that may be within xi + reach, every edge-triangle pair that may meet,
- * found without any code of the solver. The lists reach `margin` further than asked and serve until a node has moved more than half of it. */
+/* Candidate pairs of the monitors M1 and M2: every point-triangle and edge-edge pair that may be within xi + reach, every edge-triangle
+ * pair that may meet, found without any code of the solver. The lists reach `margin` further than asked and serve until a node has moved
+ * more than half of it. */
 #ifndef CIPC_INVARIANT_CANDIDATES_H
 #define CIPC_INVARIANT_CANDIDATES_H
 
@@ -10,52 +11,56 @@
 
 /* The primitives of one dimension, all bodies together. */
 typedef struct cipc_primitives {
-    int count, size;                          /* size: nodes of one, 1..3 */
-    const int *nodes;                         /* count * size */
-    int *order;                               /* item at each place of the tree: those that are not fixed first, then by body, then along the rest shape */
-    int moving;                               /* the first `moving` places are those that are not fixed (all, if fixed pairs count) */
+    int count, size;  /* size: nodes of one, 1..3 */
+    const int *nodes; /* count * size */
+    int *order;       /* item at each place of the tree: those that are not fixed first, then by body, then along the rest shape */
+    int moving;       /* the first `moving` places are those that are not fixed (all, if fixed pairs count) */
     cipc_patch_tree tree;
 } cipc_primitives;
 
 enum { CIPC_POINTS = 0, CIPC_EDGES, CIPC_TRIANGLES, CIPC_PRIMITIVE_KINDS };
 
-typedef enum cipc_candidate_kind {
-    CIPC_CANDIDATE_POINT_TRIANGLE = 0, CIPC_CANDIDATE_EDGE_EDGE, CIPC_CANDIDATE_EDGE_TRIANGLE, CIPC_CANDIDATE_KINDS
-} cipc_candidate_kind;
+typedef enum invariant_candidate_kind {
+    CIPC_CANDIDATE_POINT_TRIANGLE = 0,
+    CIPC_CANDIDATE_EDGE_EDGE,
+    CIPC_CANDIDATE_EDGE_TRIANGLE,
+    CIPC_CANDIDATE_KINDS
+} invariant_candidate_kind;
 
-/* A part of the search: the patches [first, last) of the first side of a kind against the second side, and what was found. Parts are fixed at creation,
- * so neither the lists nor their order depend on the number of threads. */
-typedef struct cipc_candidate_part {
-    cipc_candidate_kind kind;
+/* A part of the search: the patches [first, last) of the first side of a kind against the second side, and what was found. Parts are
+ * fixed at creation, so neither the lists nor their order depend on the number of threads. */
+typedef struct invariant_candidate_part {
+    invariant_candidate_kind kind;
     int first, last;
-    int (*pairs)[2];                          /* first primitive (lower edge index first), second primitive */
+    int (*pairs)[2]; /* first primitive (lower edge index first), second primitive */
     int count, capacity;
-    cipc_place_list patches;                  /* scratch: patches of the second side near a patch of the first */
+    cipc_place_list patches; /* scratch: patches of the second side near a patch of the first */
     bool failed;
-} cipc_candidate_part;
+} invariant_candidate_part;
 
-typedef struct cipc_candidates {
+typedef struct invariant_candidates {
     const cipc_model *model;
     double reach, margin;
     int threads;
-    int *point_nodes;                         /* 0, 1, 2, ... */
-    bool *fixed;                              /* of a node: in a fixed body, and fixed pairs do not count */
+    int *point_nodes; /* 0, 1, 2, ... */
+    bool *fixed;      /* of a node: in a fixed body, and fixed pairs do not count */
     cipc_primitives primitives[CIPC_PRIMITIVE_KINDS];
-    cipc_candidate_part *parts;
+    invariant_candidate_part *parts;
     int part_count;
-    double *made_at;                          /* positions the lists were made at */
+    double *made_at; /* positions the lists were made at */
     bool made;
-} cipc_candidates;
+} invariant_candidates;
 
 /* False: out of memory (free is safe then). */
-bool cipc_candidates_init(cipc_candidates *c, const cipc_model *model, double reach, double margin, int threads, bool skip_fixed);
-void cipc_candidates_free(cipc_candidates *c);
+bool invariant_candidates_init(invariant_candidates *c, const cipc_model *model, double reach, double margin, int threads, bool skip_fixed);
+void invariant_candidates_free(invariant_candidates *c);
 
-/* Make the lists valid for finite positions x; *made_now tells whether that took making them anew. False: out of memory (the lists are void then). */
-bool cipc_candidates_update(cipc_candidates *c, const double *x, bool *made_now);
+/* Make the lists valid for finite positions x; *made_now tells whether that took making them anew. False: out of memory (the lists are
+ * void then). */
+bool invariant_candidates_update(invariant_candidates *c, const double *x, bool *made_now);
 
 /* Contact thickness of the pair of these nodes' bodies (SPEC C.4, eq. 11), m. */
-double cipc_candidates_offset(const cipc_model *model, int node_a, int node_b);
+double invariant_candidates_offset(const cipc_model *model, int node_a, int node_b);
 /* Copy the positions of n nodes. */
 void cipc_gather(double *stencil, const double *x, const int *nodes, int n);
 

@@ -9,8 +9,8 @@ cipc_status cipc_monitor_finite(const cipc_model *model, const double *x, cipc_e
 {
     for (int i = 0; i < 3 * model->node_count; i++) {
         if (!isfinite(x[i])) {
-            return cipc_fail(error, CIPC_E_VIOLATED_FINITE, "monitor finite", "coordinate %c of node %d of body \"%s\" is %g", "xyz"[i % 3], i / 3,
-                             cipc_monitor_body(model, i / 3), x[i]);
+            return cipc_fail(error, CIPC_E_VIOLATED_FINITE, "monitor finite", "coordinate %c of node %d of body \"%s\" is %g", "xyz"[i % 3],
+                             i / 3, cipc_monitor_body(model, i / 3), x[i]);
         }
     }
     return CIPC_OK;

@@ -1,5 +1,5 @@
-/* Monitor M2: d > xi for every point-triangle and edge-edge pair that shares no node (SPEC V.5). A pair is cleared by a certified separation (separation.c) or
- * else decided by the exact comparison of d^2 with xi^2. The least gap found is measured again exactly. */
+/* Monitor M2: d > xi for every point-triangle and edge-edge pair that shares no node (SPEC V.5). A pair is cleared by a certified
+ * separation (separation.c) or else decided by the exact comparison of d^2 with xi^2. The least gap found is measured again exactly. */
 #include "cipc/invariant.h"
 
 #include <math.h>
@@ -12,11 +12,12 @@
 
 /* A measured pair; nodes: point and triangle, or two edges, the edge of lower index first. */
 typedef struct measured_pair {
-    double gap;         /* d - xi, by the filter */
-    double offset;      /* xi */
+    double gap;    /* d - xi, by the filter */
+    double offset; /* xi */
     bool edge_edge;
     int nodes[4];
-    bool exact;         /* the filter had to hand over */
+    bool exact;  /* the filter had to hand over */
+    bool beyond; /* proven to be out of reach; then gap is a lower bound only */
     bool violated;
 } measured_pair;
 
@@ -30,16 +31,10 @@ typedef struct gap_result {
 /* A fixed total order, so that the answer depends neither on the order of the lists nor on threads. */
 static bool is_less(const measured_pair *a, const measured_pair *b)
 {
-    if (a->gap != b->gap) {
-        return a->gap < b->gap;
-    }
-    if (a->edge_edge != b->edge_edge) {
-        return b->edge_edge;
-    }
+    if (a->gap != b->gap) { return a->gap < b->gap; }
+    if (a->edge_edge != b->edge_edge) { return b->edge_edge; }
     for (int i = 0; i < 4; i++) {
-        if (a->nodes[i] != b->nodes[i]) {
-            return a->nodes[i] < b->nodes[i];
-        }
+        if (a->nodes[i] != b->nodes[i]) { return a->nodes[i] < b->nodes[i]; }
     }
     return false;
 }
@@ -63,7 +58,8 @@ static void measure(measured_pair *p, const double *x, double reach)
     cipc_gather(stencil, x, p->nodes, 4);
     double enough = p->offset + reach;
     cipc_separation s = p->edge_edge ? cipc_separate_edge_edge(stencil, enough) : cipc_separate_point_triangle(stencil, enough);
-    p->exact = !(s.lower > p->offset) || (!s.tight && !(s.lower > enough));
+    p->beyond = s.lower > enough;
+    p->exact = !(s.lower > p->offset) || (!s.tight && !p->beyond);
     p->violated = false;
     p->gap = s.lower - p->offset;
     if (p->exact) {
@@ -82,10 +78,10 @@ static void set_nodes(measured_pair *p, const cipc_model *m, const int pair[2])
         p->nodes[0] = pair[0];
         memcpy(&p->nodes[1], m->triangles[pair[1]], 3 * sizeof(int));
     }
-    p->offset = cipc_candidates_offset(m, p->nodes[0], p->nodes[p->edge_edge ? 2 : 1]);
+    p->offset = invariant_candidates_offset(m, p->nodes[0], p->nodes[p->edge_edge ? 2 : 1]);
 }
 
-static gap_result check_part(const cipc_model *m, const cipc_candidate_part *part, double reach, const double *x)
+static gap_result check_part(const cipc_model *m, const invariant_candidate_part *part, double reach, const double *x)
 {
     gap_result r = {0};
     measured_pair p = {.edge_edge = part->kind == CIPC_CANDIDATE_EDGE_EDGE};
@@ -93,7 +89,7 @@ static gap_result check_part(const cipc_model *m, const cipc_candidate_part *par
         set_nodes(&p, m, part->pairs[i]);
         measure(&p, x, reach);
         r.exact += p.exact ? 1 : 0;
-        if (p.gap <= reach || p.violated) {
+        if ((p.gap <= reach && !p.beyond) || p.violated) {
             r.checked++;
             keep_least(&r, &p);
         }
@@ -113,25 +109,21 @@ static cipc_status fail_gap(const cipc_model *m, const double *x, const measured
     char text[sizeof values + 6 * 32];
     snprintf(text, sizeof text, values, distance, distance, p->offset, p->offset, gap, gap);
     if (p->edge_edge) {
-        return cipc_fail(error, CIPC_E_VIOLATED_GAP, "monitor gap", "edge (nodes %d %d, body \"%s\") and edge (nodes %d %d, body \"%s\"): %s", n[0], n[1], a, n[2], n[3],
-                         b, text);
+        return cipc_fail(error, CIPC_E_VIOLATED_GAP, "monitor gap",
+                         "edge (nodes %d %d, body \"%s\") and edge (nodes %d %d, body \"%s\"): %s", n[0], n[1], a, n[2], n[3], b, text);
     }
-    return cipc_fail(error, CIPC_E_VIOLATED_GAP, "monitor gap", "node %d (body \"%s\") and triangle (nodes %d %d %d, body \"%s\"): %s", n[0], a, n[1], n[2], n[3], b,
-                     text);
+    return cipc_fail(error, CIPC_E_VIOLATED_GAP, "monitor gap", "node %d (body \"%s\") and triangle (nodes %d %d %d, body \"%s\"): %s",
+                     n[0], a, n[1], n[2], n[3], b, text);
 }
 
 static void fill_report(cipc_invariant_report *report, const gap_result *r, const double *x)
 {
-    if (report == NULL) {
-        return;
-    }
+    if (report == NULL) { return; }
     report->pairs_checked = r->checked;
     report->exact_gap_checks = r->exact;
     report->min_gap = INFINITY;
     report->min_gap_is_edge_edge = 0;
-    for (int i = 0; i < 4; i++) {
-        report->min_gap_nodes[i] = r->any ? r->least.nodes[i] : -1;
-    }
+    for (int i = 0; i < 4; i++) { report->min_gap_nodes[i] = r->any ? r->least.nodes[i] : -1; }
     if (r->any) {
         double stencil[12];
         cipc_gather(stencil, x, r->least.nodes, 4);
@@ -146,12 +138,8 @@ static gap_result merge(const gap_result *results, int count)
     for (int i = 0; i < count; i++) {
         all.checked += results[i].checked;
         all.exact += results[i].exact;
-        if (results[i].any) {
-            keep_least(&all, &results[i].least);
-        }
-        if (results[i].any_violated) {
-            keep_least(&all, &results[i].violated);
-        }
+        if (results[i].any) { keep_least(&all, &results[i].least); }
+        if (results[i].any_violated) { keep_least(&all, &results[i].violated); }
     }
     return all;
 }
@@ -159,19 +147,15 @@ static gap_result merge(const gap_result *results, int count)
 cipc_status cipc_monitor_gap(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error)
 {
     cipc_status status = cipc_monitor_prepare(monitor, x, report, error);
-    if (status != CIPC_OK) {
-        return status;
-    }
-    const cipc_candidates *c = &monitor->candidates;
+    if (status != CIPC_OK) { return status; }
+    const invariant_candidates *c = &monitor->candidates;
     gap_result *results = cipc_alloc((size_t)c->part_count, sizeof *results);
     if (results == NULL) {
         return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "monitor gap", "no memory for the results of %d parts", c->part_count);
     }
 #pragma omp parallel for schedule(dynamic) num_threads(monitor->options.threads) if (monitor->options.threads > 1)
     for (int i = 0; i < c->part_count; i++) {
-        if (c->parts[i].kind != CIPC_CANDIDATE_EDGE_TRIANGLE) {
-            results[i] = check_part(monitor->model, &c->parts[i], c->reach, x);
-        }
+        if (c->parts[i].kind != CIPC_CANDIDATE_EDGE_TRIANGLE) { results[i] = check_part(monitor->model, &c->parts[i], c->reach, x); }
     }
     gap_result all = merge(results, c->part_count);
     cipc_free(results);

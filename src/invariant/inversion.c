@@ -15,20 +15,15 @@ cipc_status cipc_monitor_inversion(cipc_monitor *monitor, const double *x, cipc_
     (void)report;
     const cipc_model *m = monitor->model;
     cipc_status status = cipc_monitor_finite(m, x, error);
-    if (status != CIPC_OK) {
-        return status;
-    }
+    if (status != CIPC_OK) { return status; }
     int first = m->tetrahedron_count;
 #pragma omp parallel for schedule(static) reduction(min : first) num_threads(monitor->options.threads) if (monitor->options.threads > 1)
     for (int t = 0; t < m->tetrahedron_count; t++) {
-        if (orientation(m, t, x) <= 0 && t < first) {
-            first = t;
-        }
+        if (orientation(m, t, x) <= 0 && t < first) { first = t; }
     }
-    if (first == m->tetrahedron_count) {
-        return CIPC_OK;
-    }
+    if (first == m->tetrahedron_count) { return CIPC_OK; }
     const int *n = m->tetrahedra[first];
-    return cipc_fail(error, CIPC_E_VIOLATED_INVERSION, "monitor inversion", "tetrahedron %d (nodes %d %d %d %d, body \"%s\") is %s: the sign of its volume must be +1", first,
-                     n[0], n[1], n[2], n[3], cipc_monitor_body(m, n[0]), orientation(m, first, x) < 0 ? "inverted (sign -1)" : "flat (sign 0)");
+    return cipc_fail(error, CIPC_E_VIOLATED_INVERSION, "monitor inversion",
+                     "tetrahedron %d (nodes %d %d %d %d, body \"%s\") is %s: the sign of its volume must be +1", first, n[0], n[1], n[2],
+                     n[3], cipc_monitor_body(m, n[0]), orientation(m, first, x) < 0 ? "inverted (sign -1)" : "flat (sign 0)");
 }

@@ -7,7 +7,7 @@
 
 static const char place[] = "monitor";
 /* The activation distance of the scenes of the paper, m; the margin is as large: near convergence nodes move less than half of it. */
-#define DEFAULT_REACH 1e-3
+#define DEFAULT_REACH  1e-3
 #define DEFAULT_MARGIN 1e-3
 
 cipc_invariant_options cipc_invariant_options_default(void)
@@ -35,9 +35,7 @@ static cipc_status check_options(const cipc_invariant_options *o, cipc_error *er
     if (!(o->reach >= 0) || !isfinite(o->reach) || !(o->margin >= 0) || !isfinite(o->margin)) {
         return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "reach %g and margin %g must be finite and not negative", o->reach, o->margin);
     }
-    if (o->threads < 1) {
-        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "threads is %d; it must be at least 1", o->threads);
-    }
+    if (o->threads < 1) { return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "threads is %d; it must be at least 1", o->threads); }
     return CIPC_OK;
 }
 
@@ -46,17 +44,13 @@ cipc_status cipc_monitor_create(cipc_monitor **monitor, const cipc_model *model,
     *monitor = NULL;
     cipc_invariant_options o = options != NULL ? *options : cipc_invariant_options_default();
     cipc_status status = check_options(&o, error);
-    if (status != CIPC_OK) {
-        return status;
-    }
+    if (status != CIPC_OK) { return status; }
     cipc_monitor *m = cipc_alloc(1, sizeof *m);
-    if (m == NULL) {
-        return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, place, "no memory for the monitor");
-    }
+    if (m == NULL) { return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, place, "no memory for the monitor"); }
     m->model = model;
     m->options = o;
     m->rest = cipc_alloc((size_t)model->triangle_count, sizeof *m->rest);
-    if (!cipc_candidates_init(&m->candidates, model, o.reach, o.margin, o.threads, o.allow_fixed_fixed) || m->rest == NULL) {
+    if (!invariant_candidates_init(&m->candidates, model, o.reach, o.margin, o.threads, o.allow_fixed_fixed) || m->rest == NULL) {
         cipc_monitor_destroy(m);
         return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, place, "no memory for the broad phase of %d nodes", model->node_count);
     }
@@ -68,7 +62,7 @@ cipc_status cipc_monitor_create(cipc_monitor **monitor, const cipc_model *model,
 void cipc_monitor_destroy(cipc_monitor *monitor)
 {
     if (monitor != NULL) {
-        cipc_candidates_free(&monitor->candidates);
+        invariant_candidates_free(&monitor->candidates);
         cipc_free(monitor->rest);
         cipc_free(monitor);
     }
@@ -77,16 +71,12 @@ void cipc_monitor_destroy(cipc_monitor *monitor)
 cipc_status cipc_monitor_prepare(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error)
 {
     cipc_status status = cipc_monitor_finite(monitor->model, x, error);
-    if (status != CIPC_OK) {
-        return status;
-    }
+    if (status != CIPC_OK) { return status; }
     bool made_now;
-    if (!cipc_candidates_update(&monitor->candidates, x, &made_now)) {
+    if (!invariant_candidates_update(&monitor->candidates, x, &made_now)) {
         return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, place, "no memory for the lists of candidate pairs");
     }
-    if (report != NULL) {
-        report->lists_made = report->lists_made || made_now;
-    }
+    if (report != NULL) { report->lists_made = report->lists_made || made_now; }
     return CIPC_OK;
 }
 
@@ -94,12 +84,8 @@ cipc_status cipc_monitor_check(cipc_monitor *monitor, const double *x, cipc_inva
 {
     typedef cipc_status check(cipc_monitor *, const double *, cipc_invariant_report *, cipc_error *);
     static check *const checks[] = {cipc_monitor_intersection, cipc_monitor_gap, cipc_monitor_strain, cipc_monitor_inversion};
-    if (report != NULL) {
-        cipc_invariant_report_init(report);
-    }
+    if (report != NULL) { cipc_invariant_report_init(report); }
     cipc_status status = cipc_monitor_finite(monitor->model, x, error);
-    for (size_t i = 0; i < sizeof checks / sizeof checks[0] && status == CIPC_OK; i++) {
-        status = checks[i](monitor, x, report, error);
-    }
+    for (size_t i = 0; i < sizeof checks / sizeof checks[0] && status == CIPC_OK; i++) { status = checks[i](monitor, x, report, error); }
     return status;
 }

@@ -7,17 +7,17 @@
 
 /* What M3 keeps of a triangle at rest. */
 typedef struct cipc_strain_rest {
-    double form[3];                           /* first fundamental form Ibar: |E1|^2, E1.E2, |E2|^2 */
-    double inverse[4];                        /* rows of the inverse of the 2 x 2 matrix of E1, E2 in an orthonormal frame of the rest triangle */
-    double limit;                             /* s; 0: not limited */
-    bool measured;                            /* counts for max_stretch */
+    double form[3];    /* first fundamental form Ibar: |E1|^2, E1.E2, |E2|^2 */
+    double inverse[4]; /* rows of the inverse of the 2 x 2 matrix of E1, E2 in an orthonormal frame of the rest triangle */
+    double limit;      /* s; 0: not limited */
+    bool measured;     /* counts for max_stretch */
 } cipc_strain_rest;
 
 struct cipc_monitor {
     const cipc_model *model;
     cipc_invariant_options options;
-    cipc_candidates candidates;
-    cipc_strain_rest *rest;                   /* triangle_count */
+    invariant_candidates candidates;
+    cipc_strain_rest *rest; /* triangle_count */
 };
 
 /* Fill rest[triangle_count]. (strain.c) */

@@ -39,12 +39,8 @@ bool cipc_patch_tree_init(cipc_patch_tree *tree, int count)
         n = n / SIZE + (n % SIZE != 0 ? 1 : 0);
         n = n > 0 ? n : 1; /* an empty tree has one empty patch */
         cipc_patch *patches = cipc_alloc((size_t)n, sizeof *patches);
-        if (patches == NULL) {
-            return false;
-        }
-        for (int i = 0; i < n; i++) {
-            make_empty(&patches[i]);
-        }
+        if (patches == NULL) { return false; }
+        for (int i = 0; i < n; i++) { make_empty(&patches[i]); }
         tree->levels[tree->level_count] = patches;
         tree->patch_count[tree->level_count] = n;
         tree->level_count++;
@@ -54,9 +50,7 @@ bool cipc_patch_tree_init(cipc_patch_tree *tree, int count)
 
 void cipc_patch_tree_free(cipc_patch_tree *tree)
 {
-    for (int l = 0; l < tree->level_count; l++) {
-        cipc_free(tree->levels[l]);
-    }
+    for (int l = 0; l < tree->level_count; l++) { cipc_free(tree->levels[l]); }
     memset(tree, 0, sizeof *tree);
 }
 
@@ -105,9 +99,7 @@ static bool append_place(cipc_place_list *list, int place)
     if (list->count == list->capacity) {
         int capacity = 2 * list->capacity + 64;
         int *grown = cipc_realloc(list->places, (size_t)capacity, sizeof *grown);
-        if (grown == NULL) {
-            return false;
-        }
+        if (grown == NULL) { return false; }
         list->places = grown;
         list->capacity = capacity;
     }
@@ -140,13 +132,11 @@ unsigned cipc_patch_overlaps(const cipc_patch *patch, const cipc_patch_box *box)
 {
     int hit[SIZE];
     for (int i = 0; i < SIZE; i++) {
-        hit[i] = (patch->lo[0][i] <= box->hi[0]) & (patch->hi[0][i] >= box->lo[0]) & (patch->lo[1][i] <= box->hi[1]) & (patch->hi[1][i] >= box->lo[1]) &
-                 (patch->lo[2][i] <= box->hi[2]) & (patch->hi[2][i] >= box->lo[2]);
+        hit[i] = (patch->lo[0][i] <= box->hi[0]) & (patch->hi[0][i] >= box->lo[0]) & (patch->lo[1][i] <= box->hi[1]) &
+                 (patch->hi[1][i] >= box->lo[1]) & (patch->lo[2][i] <= box->hi[2]) & (patch->hi[2][i] >= box->lo[2]);
     }
     unsigned bits = 0;
-    for (int i = 0; i < SIZE; i++) {
-        bits |= (unsigned)hit[i] << i;
-    }
+    for (int i = 0; i < SIZE; i++) { bits |= (unsigned)hit[i] << i; }
     return bits;
 }
 
@@ -168,14 +158,10 @@ static inline bool covers(const patch_query *q, int level, int child)
 static bool visit_patch(const patch_query *q, int level, int patch)
 {
     unsigned bits = cipc_patch_overlaps(&q->tree->levels[level][patch], q->box);
-    if (level == 0) {
-        return bits == 0 || append_place(q->patches, patch);
-    }
+    if (level == 0) { return bits == 0 || append_place(q->patches, patch); }
     for (; bits != 0; bits &= bits - 1) {
         int child = patch * SIZE + cipc_lowest_bit(bits);
-        if (covers(q, level, child) && !visit_patch(q, level - 1, child)) {
-            return false;
-        }
+        if (covers(q, level, child) && !visit_patch(q, level - 1, child)) { return false; }
     }
     return true;
 }

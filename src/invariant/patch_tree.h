@@ -1,6 +1,6 @@
-/* Broad phase of the monitors: a tree of boxes over a fixed order of the items. Eight consecutive items make a patch, eight patches a larger one, and so on; when the
- * nodes move only the boxes change. With neighbours of a mesh next to one another in the order, patches stay compact however the mesh deforms; a long
- * item swells the few patches above it only. The order affects speed, never the answer.
+/* Broad phase of the monitors: a tree of boxes over a fixed order of the items. Eight consecutive items make a patch, eight patches a
+ * larger one, and so on; when the nodes move only the boxes change. With neighbours of a mesh next to one another in the order, patches
+ * stay compact however the mesh deforms; a long item swells the few patches above it only. The order affects speed, never the answer.
  *
  * Nothing here is approximate: boxes are rounded outwards, and every item whose box overlaps the asker's is reported, once. */
 #ifndef CIPC_INVARIANT_PATCH_TREE_H
@@ -9,19 +9,22 @@
 #include <stdbool.h>
 
 /* Closed box. Infinite bounds are allowed, NaN is not. */
-typedef struct cipc_patch_box { float lo[3], hi[3]; } cipc_patch_box;
+typedef struct cipc_patch_box {
+    float lo[3], hi[3];
+} cipc_patch_box;
 
 enum { CIPC_PATCH_SIZE = 8, CIPC_PATCH_LEVELS = 11 }; /* 8^11 exceeds any int */
 
-/* The boxes of the children of a patch, coordinate by coordinate, so that all eight are tested at once. Missing children have empty boxes. */
+/* The boxes of the children of a patch, coordinate by coordinate, so that all eight are tested at once. Missing children have empty
+ * boxes. */
 typedef struct cipc_patch {
     float lo[3][CIPC_PATCH_SIZE], hi[3][CIPC_PATCH_SIZE];
 } cipc_patch;
 
 typedef struct cipc_patch_tree {
-    int count;                                /* items, named by their place 0 .. count-1 in the order */
+    int count; /* items, named by their place 0 .. count-1 in the order */
     int level_count;
-    cipc_patch *levels[CIPC_PATCH_LEVELS];    /* levels[0]: patches of items; the last level is one patch */
+    cipc_patch *levels[CIPC_PATCH_LEVELS]; /* levels[0]: patches of items; the last level is one patch */
     int patch_count[CIPC_PATCH_LEVELS];
 } cipc_patch_tree;
 
@@ -47,8 +50,8 @@ void cipc_patch_tree_refit(cipc_patch_tree *tree);
 cipc_patch_box cipc_patch_tree_item_box(const cipc_patch_tree *tree, int place);
 cipc_patch_box cipc_patch_tree_patch_box(const cipc_patch_tree *tree, int patch);
 
-/* Append the numbers of the lowest patches (levels[0]) that cover a place in [begin, end) and have a child whose box overlaps `box`, ascending.
- * False: out of memory. Thread-safe for one tree. */
+/* Append the numbers of the lowest patches (levels[0]) that cover a place in [begin, end) and have a child whose box overlaps `box`,
+ * ascending. False: out of memory. Thread-safe for one tree. */
 bool cipc_patch_tree_query(const cipc_patch_tree *tree, const cipc_patch_box *box, int begin, int end, cipc_place_list *patches);
 
 /* Bit i is set if the box of child i of the patch overlaps `box`. */

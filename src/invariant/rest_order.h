@@ -6,8 +6,8 @@
 
 #include "cipc/model.h"
 
-/* order[count]: the primitives of `size` nodes each, those with a node that is not fixed first, then body by body, within a body along a space-filling curve through its rest
- * shape; ties by index. False: out of memory. */
+/* order[count]: the primitives of `size` nodes each, those with a node that is not fixed first, then body by body, within a body along a
+ * space-filling curve through its rest shape; ties by index. False: out of memory. */
 bool cipc_rest_order(int *order, const cipc_model *model, const int *nodes, int size, int count, const bool *fixed);
 
 #endif

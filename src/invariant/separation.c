@@ -1,8 +1,8 @@
 /* Certified lower bounds of distances by separating directions (SPEC V.4, duality; docs/monitors.md, "The separation bound").
  *
- * For ANY direction n and convex A, B:  d(A, B) >= ( min_i n.a_i - max_j n.b_j ) / |n|.  So whatever finds n need not be trusted: approximate closest points and
- * features do. Only the evaluation of the right-hand side needs an error bound. Coordinates are taken relative to a node of the stencil, so that the error scales with
- * the stencil, not with the world. */
+ * For ANY direction n and convex A, B:  d(A, B) >= ( min_i n.a_i - max_j n.b_j ) / |n|.  So whatever finds n need not be trusted:
+ * approximate closest points and features do. Only the evaluation of the right-hand side needs an error bound. Coordinates are taken
+ * relative to a node of the stencil, so that the error scales with the stencil, not with the world. */
 #include "invariant/separation.h"
 
 #include <float.h>
@@ -12,20 +12,21 @@
 
 /* Unit roundoff of double. */
 #define UNIT (0.5 * DBL_EPSILON)
-/* Error of min - max in units of u |n|_1 S, S = largest coordinate of the stencil: 2 * 4 + 2 = 10 in first order; 12 covers the rest and the rounding
- * of the bound itself (docs/monitors.md). */
+/* Error of min - max in units of u |n|_1 S, S = largest coordinate of the stencil: 2 * 4 + 2 = 10 in first order; 12 covers the rest and
+ * the rounding of the bound itself (docs/monitors.md). */
 #define SEPARATION_ERROR (12 * UNIT)
-/* The quotient sep / |n| is off by at most 5 u relatively: 3/2 + 1 in the length, 1 each in the difference, the quotient and the product below. */
+/* The quotient sep / |n| is off by less than 6 u relatively: 3/2 + 1 in the length, 1 each in the difference, the quotient and the
+ * product. */
 #define ROUND_DOWN (1 - 8 * UNIT)
 /* Outside of these, underflow or overflow could spoil the bounds: nothing is proven then. */
-#define SMALLEST_NORM 0x1p-400
-#define LARGEST_NORM 0x1p400
+#define SMALLEST_NORM  0x1p-400
+#define LARGEST_NORM   0x1p400
 #define SMALLEST_SCALE 0x1p-900
-#define LARGEST_SCALE 0x1p900
-/* Upper and lower bound this near (relative to the distance, and to the stencil's size) count as one number. Far above the rounding of a good direction
- * (12 sqrt(3) u S, u = 2^-53), far below anything a report shows. */
+#define LARGEST_SCALE  0x1p900
+/* Upper and lower bound this near (relative to the distance, and to the stencil's size) count as one number. Far above the rounding of a
+ * good direction (12 sqrt(3) u S, u = 2^-53), far below anything a report shows. */
 #define TIGHT_RELATIVE 0x1p-30
-#define TIGHT_SIZE 0x1p-46
+#define TIGHT_SIZE     0x1p-46
 /* Edges (or sides of a triangle) at an angle below about this (its sine) have a poor cross product: their ends are tried as well. */
 #define NEAR_PARALLEL 1e-3
 
@@ -55,9 +56,7 @@ static inline double largest(double size, const double v[3])
 static inline double certified(double low, double high, const double n[3], double size)
 {
     double norm1 = fabs(n[0]) + fabs(n[1]) + fabs(n[2]), scale = norm1 * size;
-    if (!(norm1 > SMALLEST_NORM && norm1 < LARGEST_NORM && scale > SMALLEST_SCALE && scale < LARGEST_SCALE)) {
-        return -INFINITY;
-    }
+    if (!(norm1 > SMALLEST_NORM && norm1 < LARGEST_NORM && scale > SMALLEST_SCALE && scale < LARGEST_SCALE)) { return -INFINITY; }
     return ((low - high) - SEPARATION_ERROR * scale) / v3_norm(n) * ROUND_DOWN;
 }
 
@@ -67,9 +66,7 @@ static inline double nearest_on_segment(const double p[3], const double d[3], do
     double length2 = v3_norm2(d), t = -v3_dot(p, d);
     *inside = t > 0 && t < length2;
     t = *inside ? t / length2 : (t > 0 ? 1.0 : 0.0);
-    for (int k = 0; k < 3; k++) {
-        nearest[k] = p[k] + t * d[k];
-    }
+    for (int k = 0; k < 3; k++) { nearest[k] = p[k] + t * d[k]; }
     return v3_norm2(nearest);
 }
 
@@ -77,15 +74,13 @@ static inline double nearest_on_segment(const double p[3], const double d[3], do
 static inline void orthogonalise(double n[3], const double d[3])
 {
     double length2 = v3_norm2(d);
-    if (length2 > 0) {
-        v3_axpy(n, -v3_dot(n, d) / length2, d);
-    }
+    if (length2 > 0) { v3_axpy(n, -v3_dot(n, d) / length2, d); }
 }
 
 /* A point-edge candidate for the nearest feature: from a point to the line through two others. */
 typedef struct nearest_candidate {
     double distance2;
-    double n[3];    /* from the nearest point of the edge to the point */
+    double n[3];     /* from the nearest point of the edge to the point */
     double along[3]; /* the edge's direction */
     bool inside;
 } nearest_candidate;
@@ -125,7 +120,8 @@ static inline double point_triangle_along(double y[3][3], const double n[3], dou
     return certified(0, high, n, size);
 }
 
-/* The triangle's normal, if the foot of the point lies inside. Returns false when the triangle is such a sliver that its sides must be tried too. */
+/* The triangle's normal, if the foot of the point lies inside. Returns false when the triangle is such a sliver that its sides must be
+ * tried too. */
 static bool separate_by_normal(cipc_separation *best, const double x[12], double y[3][3], double size)
 {
     double e1[3], e2[3], n[3], s[3];
@@ -138,9 +134,7 @@ static bool separate_by_normal(cipc_separation *best, const double x[12], double
     double beta1 = v3_dot(s, n);
     v3_cross(s, y[0], e1);
     double beta2 = v3_dot(s, n);
-    if (!(n2 > 0 && beta1 >= 0 && beta2 >= 0 && beta1 + beta2 <= n2)) {
-        return false;
-    }
+    if (!(n2 > 0 && beta1 >= 0 && beta2 >= 0 && beta1 + beta2 <= n2)) { return false; }
     double height = -v3_dot(y[0], n);
     v3_scale(n, height < 0 ? -1.0 : 1.0, n);
     keep_better(best, point_triangle_along(y, n, size), fabs(height) / sqrt(n2), size);
@@ -155,9 +149,7 @@ static void separate_by_sides(cipc_separation *best, double y[3][3], double size
         v3_sub(d, y[(i + 1) % 3], y[i]);
         offer_segment(&nearest, y[i], d, 1);
     }
-    if (nearest.inside) {
-        orthogonalise(nearest.n, nearest.along);
-    }
+    if (nearest.inside) { orthogonalise(nearest.n, nearest.along); }
     keep_better(best, point_triangle_along(y, nearest.n, size), sqrt(nearest.distance2), size);
 }
 
@@ -169,17 +161,11 @@ cipc_separation cipc_separate_point_triangle(const double x[12], double enough)
         size = largest(size, y[i]);
     }
     cipc_separation best = nothing;
-    for (int k = 0; k < 3; k++) {
-        n[k] = -(y[0][k] + y[1][k] + y[2][k]);
-    }
+    for (int k = 0; k < 3; k++) { n[k] = -(y[0][k] + y[1][k] + y[2][k]); }
     best.lower = point_triangle_along(y, n, size); /* towards the centroid: settles most far pairs */
-    if (best.lower > enough) {
-        return best;
-    }
+    if (best.lower > enough) { return best; }
     bool settled = separate_by_normal(&best, x, y, size);
-    if (!(settled && best.tight) && !(best.lower > enough)) {
-        separate_by_sides(&best, y, size);
-    }
+    if (!(settled && best.tight) && !(best.lower > enough)) { separate_by_sides(&best, y, size); }
     return best;
 }
 
@@ -192,7 +178,8 @@ static inline double edge_edge_along(double y[3][3], const double n[3], double s
     return certified(a < 0 ? a : 0.0, b0 > b1 ? b0 : b1, n, size);
 }
 
-/* The common normal of the two lines, if they come nearest inside both edges. Returns false when they are so parallel that the end points must be tried too. */
+/* The common normal of the two lines, if they come nearest inside both edges. Returns false when they are so parallel that the end points
+ * must be tried too. */
 static bool separate_by_common_normal(cipc_separation *best, double y[3][3], const double da[3], const double db[3], double size)
 {
     double n[3], s[3];
@@ -203,9 +190,7 @@ static bool separate_by_common_normal(cipc_separation *best, double y[3][3], con
     double ta = v3_dot(s, n);
     v3_cross(s, y[1], da);
     double tb = v3_dot(s, n);
-    if (!(n2 > 0 && ta >= 0 && ta <= n2 && tb >= 0 && tb <= n2)) {
-        return false;
-    }
+    if (!(n2 > 0 && ta >= 0 && ta <= n2 && tb >= 0 && tb <= n2)) { return false; }
     double height = -v3_dot(y[1], n);
     v3_scale(n, height < 0 ? -1.0 : 1.0, n);
     keep_better(best, edge_edge_along(y, n, size), fabs(height) / sqrt(n2), size);
@@ -223,9 +208,7 @@ static void separate_by_ends(cipc_separation *best, const double x[12], double y
     offer_segment(&nearest, r, da, -1); /* b0 to edge a */
     v3_sub(r, x, &x[9]);
     offer_segment(&nearest, r, da, -1); /* b1 to edge a */
-    if (nearest.inside) {
-        orthogonalise(nearest.n, nearest.along);
-    }
+    if (nearest.inside) { orthogonalise(nearest.n, nearest.along); }
     keep_better(best, edge_edge_along(y, nearest.n, size), sqrt(nearest.distance2), size);
 }
 
@@ -237,19 +220,13 @@ cipc_separation cipc_separate_edge_edge(const double x[12], double enough)
         size = largest(size, y[i]);
     }
     cipc_separation best = nothing;
-    for (int k = 0; k < 3; k++) {
-        n[k] = y[0][k] - y[1][k] - y[2][k];
-    }
+    for (int k = 0; k < 3; k++) { n[k] = y[0][k] - y[1][k] - y[2][k]; }
     best.lower = edge_edge_along(y, n, size); /* between the mid-points: settles most far pairs */
-    if (best.lower > enough) {
-        return best;
-    }
+    if (best.lower > enough) { return best; }
     v3_sub(da, &x[3], x);
     v3_sub(db, &x[9], &x[6]);
     bool settled = separate_by_common_normal(&best, y, da, db, size);
-    if (!(settled && best.tight) && !(best.lower > enough)) {
-        separate_by_ends(&best, x, y, da, db, size);
-    }
+    if (!(settled && best.tight) && !(best.lower > enough)) { separate_by_ends(&best, x, y, da, db, size); }
     return best;
 }
 
@@ -274,9 +251,7 @@ typedef struct edge_triangle {
 
 static inline void set_nodes(edge_triangle *p, const double edge[6], const double triangle[9])
 {
-    for (int i = 0; i < 3; i++) {
-        v3_sub(p->y[i], &triangle[3 * i], edge);
-    }
+    for (int i = 0; i < 3; i++) { v3_sub(p->y[i], &triangle[3 * i], edge); }
     v3_sub(p->y[3], &edge[3], edge);
     p->size = largest(largest(0, p->y[0]), p->y[1]);
     p->size = largest(largest(p->size, p->y[2]), p->y[3]);
@@ -284,9 +259,7 @@ static inline void set_nodes(edge_triangle *p, const double edge[6], const doubl
 
 static inline void set_sides(edge_triangle *p, const double triangle[9])
 {
-    for (int i = 0; i < 3; i++) {
-        v3_sub(p->side[i], &triangle[3 * ((i + 1) % 3)], &triangle[3 * i]);
-    }
+    for (int i = 0; i < 3; i++) { v3_sub(p->side[i], &triangle[3 * ((i + 1) % 3)], &triangle[3 * i]); }
     v3_cross(p->normal, p->side[0], p->side[1]);
 }
 
@@ -307,8 +280,8 @@ static bool is_apart_by_triangle(const edge_triangle *p, double distance)
     return apart;
 }
 
-/* The other faces of the Minkowski difference triangle - edge: spanned by the edge and a side; and, in place of these when all lie (nearly) in one plane, perpendicular
- * to the edge in that plane. */
+/* The other faces of the Minkowski difference triangle - edge: spanned by the edge and a side; and, in place of these when all lie
+ * (nearly) in one plane, perpendicular to the edge in that plane. */
 static bool is_apart_by_edge(const edge_triangle *p, double distance)
 {
     double n[3];
@@ -338,9 +311,7 @@ bool cipc_edge_triangle_far(const double edge[6], const double triangle[9], doub
         /* Six times the vector from the middle of the edge to the centroid of the triangle. */
         n[k] = 2 * (p.y[0][k] + p.y[1][k] + p.y[2][k]) - 3 * p.y[3][k];
     }
-    if (is_apart_along(&p, n, distance)) {
-        return true;
-    }
+    if (is_apart_along(&p, n, distance)) { return true; }
     set_sides(&p, triangle);
     return is_apart_by_triangle(&p, distance);
 }

@@ -4,8 +4,8 @@
 
 #include <stdbool.h>
 
-/* lower <= true distance, proven against rounding; may be negative or -INFINITY when nothing could be proven. upper is about the true distance or
- * above it, not proven; tight: upper - lower is small, so that lower may be reported as the distance. */
+/* lower <= true distance, proven against rounding; may be negative or -INFINITY when nothing could be proven. upper is about the true
+ * distance or above it, not proven; tight: upper - lower is small, so that lower may be reported as the distance. */
 typedef struct cipc_separation {
     double lower, upper;
     bool tight;
@@ -18,7 +18,8 @@ cipc_separation cipc_separate_edge_edge(const double x[12], double enough);
 
 /* Is it proven that edge and triangle have no point in common? A disjoint pair is recognised unless rounding prevents it. */
 bool cipc_edge_triangle_apart(const double edge[6], const double triangle[9]);
-/* Is it proven that they are further apart than `distance` >= 0? A quick look along few directions; many pairs at larger distance are not recognised. */
+/* Is it proven that they are further apart than `distance` >= 0? A quick look along few directions; many pairs at larger distance are not
+ * recognised. */
 bool cipc_edge_triangle_far(const double edge[6], const double triangle[9], double distance);
 
 #endif

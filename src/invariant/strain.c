@@ -1,7 +1,8 @@
 /* Monitor M3: the largest principal stretch of every limited triangle is below its limit, sigma_1 < s (SPEC V.5).
  *
- * With first fundamental forms Ibar (rest) and I (now):  sigma_1 < s  <=>  M = s^2 Ibar - I positive definite  <=>  M11 > 0 and det M > 0.
- * Both are evaluated in double with an error bound (docs/monitors.md, "The strain bound"); what it cannot decide goes to exact arithmetic. */
+ * With first fundamental forms Ibar (rest) and I (now):  sigma_1 < s  <=>  M = s^2 Ibar - I positive definite  <=>  M11 > 0 and det M >
+ * 0. Both are evaluated in double with an error bound (docs/monitors.md, "The strain bound"); what it cannot decide goes to exact
+ * arithmetic. */
 #include "cipc/invariant.h"
 
 #include <float.h>
@@ -12,12 +13,13 @@
 #include "invariant/monitor.h"
 
 #define UNIT (0.5 * DBL_EPSILON)
-/* With Q = s^2 tr Ibar + tr I, every entry of M is off by at most 9 u Q, hence det M by at most 43 u Q^2; rounded up to cover the bounds' own rounding. */
-#define ENTRY_ERROR (10 * UNIT)
+/* With Q = s^2 tr Ibar + tr I, every entry of M is off by at most 9 u Q, hence det M by at most 43 u Q^2; rounded up to cover the bounds'
+ * own rounding. */
+#define ENTRY_ERROR       (10 * UNIT)
 #define DETERMINANT_ERROR (48 * UNIT)
 /* Outside of these, underflow or overflow could spoil the bounds: nothing is proven then. */
 #define SMALLEST_TRACE 0x1p-400
-#define LARGEST_TRACE 0x1p400
+#define LARGEST_TRACE  0x1p400
 
 /* form = |e1|^2, e1.e2, |e2|^2. */
 static void fundamental_form(double form[3], const double e1[3], const double e2[3])
@@ -74,9 +76,7 @@ static double largest_stretch2(const cipc_strain_rest *rest, const double e1[3],
 {
     double f1[3], f2[3];
     v3_scale(f1, rest->inverse[0], e1);
-    for (int k = 0; k < 3; k++) {
-        f2[k] = rest->inverse[1] * e1[k] + rest->inverse[3] * e2[k];
-    }
+    for (int k = 0; k < 3; k++) { f2[k] = rest->inverse[1] * e1[k] + rest->inverse[3] * e2[k]; }
     double c11 = v3_norm2(f1), c12 = v3_dot(f1, f2), c22 = v3_norm2(f2);
     double half = 0.5 * (c11 - c22);
     return 0.5 * (c11 + c22) + sqrt(half * half + c12 * c12);
@@ -85,8 +85,8 @@ static double largest_stretch2(const cipc_strain_rest *rest, const double e1[3],
 /* What one section of the triangles gave. */
 typedef struct strain_result {
     double stretch, ratio;
-    int triangle;       /* of the largest stretch; -1: none */
-    int violating;      /* the first violating triangle; -1: none */
+    int triangle;  /* of the largest stretch; -1: none */
+    int violating; /* the first violating triangle; -1: none */
     long exact;
 } strain_result;
 
@@ -108,16 +108,12 @@ static void check_triangle(strain_result *r, const cipc_monitor *monitor, int t,
         r->stretch = stretch;
         r->triangle = t;
     }
-    if (!(rest->limit > 0)) {
-        return;
-    }
+    if (!(rest->limit > 0)) { return; }
     r->ratio = fmax(r->ratio, (stretch - 1) / (rest->limit - 1));
     fundamental_form(form, e1, e2);
     if (!is_proven(rest, form)) {
         r->exact++;
-        if (is_violating(monitor->model, t, rest->limit, x) && r->violating < 0) {
-            r->violating = t;
-        }
+        if (is_violating(monitor->model, t, rest->limit, x) && r->violating < 0) { r->violating = t; }
     }
 }
 
@@ -127,9 +123,7 @@ static strain_result check_section(const cipc_monitor *monitor, int section, con
     int first = section * CIPC_MONITOR_SECTION, count = monitor->model->triangle_count;
     int last = first + CIPC_MONITOR_SECTION < count ? first + CIPC_MONITOR_SECTION : count;
     for (int t = first; t < last; t++) {
-        if (monitor->rest[t].measured) {
-            check_triangle(&r, monitor, t, x);
-        }
+        if (monitor->rest[t].measured) { check_triangle(&r, monitor, t, x); }
     }
     return r;
 }
@@ -158,7 +152,8 @@ static cipc_status fail_strain(const cipc_monitor *monitor, int t, const double 
     edges_of(x, n, e1, e2);
     double stretch = sqrt(largest_stretch2(&monitor->rest[t], e1, e2));
     return cipc_fail(error, CIPC_E_VIOLATED_STRAIN, "monitor strain",
-                     "triangle %d (nodes %d %d %d, body \"%s\"): largest principal stretch %.17g (%a, evaluated in double) must be below the limit %.17g (%a); exact "
+                     "triangle %d (nodes %d %d %d, body \"%s\"): largest principal stretch %.17g (%a, evaluated in double) must be below "
+                     "the limit %.17g (%a); exact "
                      "arithmetic says it is not",
                      t, n[0], n[1], n[2], m->bodies[m->triangle_body[t]].name, stretch, stretch, limit, limit);
 }
@@ -166,18 +161,14 @@ static cipc_status fail_strain(const cipc_monitor *monitor, int t, const double 
 cipc_status cipc_monitor_strain(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error)
 {
     cipc_status status = cipc_monitor_finite(monitor->model, x, error);
-    if (status != CIPC_OK) {
-        return status;
-    }
+    if (status != CIPC_OK) { return status; }
     int sections = cipc_monitor_sections(monitor->model->triangle_count);
     strain_result *results = cipc_alloc((size_t)sections, sizeof *results);
     if (results == NULL) {
         return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "monitor strain", "no memory for the results of %d sections", sections);
     }
 #pragma omp parallel for schedule(dynamic) num_threads(monitor->options.threads) if (monitor->options.threads > 1)
-    for (int i = 0; i < sections; i++) {
-        results[i] = check_section(monitor, i, x);
-    }
+    for (int i = 0; i < sections; i++) { results[i] = check_section(monitor, i, x); }
     strain_result all = merge(results, sections);
     cipc_free(results);
     if (report != NULL) {

@@ -75,7 +75,8 @@ static void rotate(double y[3], const double c[3], const double axis[3], double 
 /* The part of [time, time + h] inside the window drives the node; true if it moved it. */
 static bool apply_motion(const cipc_motion *m, double time, double h, double y[3])
 {
-    double from = fmax(m->begin, time), to = fmin(m->end, time + h), duration = to - from;
+    /* Relative to the start of the step, so that a window that covers the step drives it for h exactly. */
+    double from = fmax(m->begin - time, 0), to = fmin(m->end - time, h), duration = to - from;
     /* A window that starts at the end of the step, up to the rounding of step * h, has not started. */
     if (!(duration > 1e-9 * h)) return false;
     if (m->angular_velocity != 0) rotate(y, m->center, m->axis, m->angular_velocity * duration);

@@ -41,7 +41,8 @@ static void add_edge(cipc_model *m, const half_edge *sides, int i, int j)
     m->edges[m->edge_count][0] = a->forward ? a->from : a->to;
     m->edges[m->edge_count][1] = a->forward ? a->to : a->from;
     m->edge_area[m->edge_count++] = area;
-    if (j - i != 2) return;
+    /* Two triangles on the same three nodes have no angle between them. */
+    if (j - i != 2 || a->opposite == sides[i + 1].opposite) return;
     int *hinge = m->hinges[m->hinge_count++];
     hinge[0] = a->forward ? a->from : a->to;
     hinge[1] = a->forward ? a->to : a->from;

@@ -160,6 +160,7 @@ static cipc_status add_fixed_body(cipc_model *m, int b, cipc_error *error)
 cipc_status cipc_model_create(cipc_model **model, const cipc_body_description *bodies, int body_count, const double gravity[3], cipc_error *error)
 {
     *model = NULL;
+    if (!all_finite(gravity, 3)) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "gravity", "a component is not finite");
     if (body_count < 1) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "bodies", "a model needs at least one body");
     int nodes = 0, triangles = 0;
     for (int b = 0; b < body_count; b++) {

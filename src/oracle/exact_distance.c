@@ -1,10 +1,10 @@
 /* Exact squared distance of point-triangle and edge-edge, in integers (SPEC V.2).
  *
- * d^2 is the least of a few candidates, each the squared distance to a point that really lies on the primitive. In integer coordinates each candidate is a
- * ratio numerator / denominator of integers:
+ * d^2 is the least of a few candidates, each the squared distance to a point that really lies on the primitive. In integer coordinates
+ * each candidate is a ratio numerator / denominator of integers:
  *   point-point           |p - q|^2 / 1
  *   point-edge            |(p - e0) x d|^2 / |d|^2,  d = e1 - e0,   if 0 < (p - e0).d < |d|^2
- *   point-triangle inside ((p - t0).n)^2 / |n|^2,    n = (t1 - t0) x (t2 - t0), if n != 0 and all three barycentric coordinates are positive
+ *   point-triangle inside ((p - t0).n)^2 / |n|^2,    n = (t1 - t0) x (t2 - t0), if n != 0 and all three barycentrics are positive
  *   edge-edge inside      ((b0 - a0).n)^2 / |n|^2,   n = (a1 - a0) x (b1 - b0), if n != 0 and both line parameters are in (0, 1) */
 #include "cipc/oracle.h"
 
@@ -23,25 +23,17 @@ typedef struct search {
 
 static void search_init(search *f)
 {
-    for (int i = 0; i < 4; i++) {
-        cipc_integer3_init(&f->node[i]);
-    }
+    for (int i = 0; i < 4; i++) { cipc_integer3_init(&f->node[i]); }
     cipc_integer3 *vectors[] = {&f->u, &f->v, &f->w, &f->n, &f->s};
-    for (int i = 0; i < 5; i++) {
-        cipc_integer3_init(vectors[i]);
-    }
+    for (int i = 0; i < 5; i++) { cipc_integer3_init(vectors[i]); }
     mpz_inits(f->numerator, f->denominator, f->least_numerator, f->least_denominator, f->p, f->q, NULL);
 }
 
 static void search_clear(search *f)
 {
-    for (int i = 0; i < 4; i++) {
-        cipc_integer3_clear(&f->node[i]);
-    }
+    for (int i = 0; i < 4; i++) { cipc_integer3_clear(&f->node[i]); }
     cipc_integer3 *vectors[] = {&f->u, &f->v, &f->w, &f->n, &f->s};
-    for (int i = 0; i < 5; i++) {
-        cipc_integer3_clear(vectors[i]);
-    }
+    for (int i = 0; i < 5; i++) { cipc_integer3_clear(vectors[i]); }
     mpz_clears(f->numerator, f->denominator, f->least_numerator, f->least_denominator, f->p, f->q, NULL);
 }
 
@@ -51,9 +43,7 @@ static void offer_candidate(search *f)
     if (mpz_sgn(f->least_denominator) != 0) {
         mpz_mul(f->p, f->numerator, f->least_denominator);
         mpz_mul(f->q, f->least_numerator, f->denominator);
-        if (mpz_cmp(f->p, f->q) >= 0) {
-            return;
-        }
+        if (mpz_cmp(f->p, f->q) >= 0) { return; }
     }
     mpz_set(f->least_numerator, f->numerator);
     mpz_set(f->least_denominator, f->denominator);
@@ -108,9 +98,7 @@ static void offer_triangle_interior(search *f)
     triple(f, f->q, &f->u, &f->w);
     bool positive = mpz_sgn(f->p) > 0 && mpz_sgn(f->q) > 0;
     mpz_add(f->p, f->p, f->q);
-    if (positive && mpz_cmp(f->p, f->denominator) < 0) {
-        offer_normal(f);
-    }
+    if (positive && mpz_cmp(f->p, f->denominator) < 0) { offer_normal(f); }
 }
 
 static void offer_edges_interior(search *f)
@@ -153,9 +141,7 @@ static int search_run(search *f, bool edge_edge, const double x[12], double xi, 
 {
     int exponent = cipc_common_exponent(&xi, 1, 0);
     exponent = cipc_common_exponent(x, 12, exponent);
-    for (int i = 0; i < 4; i++) {
-        cipc_integer3_from_doubles(&f->node[i], &x[3 * i], exponent);
-    }
+    for (int i = 0; i < 4; i++) { cipc_integer3_from_doubles(&f->node[i], &x[3 * i], exponent); }
     cipc_integer_from_double(integer_xi, xi, exponent);
     if (edge_edge) {
         search_edge_edge(f);
@@ -176,9 +162,7 @@ static void squared_difference(const search *f, const mpz_t integer_xi, mpz_t di
 int cipc_exact_compare_distance(bool edge_edge, const double x[12], double xi, double *distance2)
 {
     if (!cipc_all_finite(x, 12) || !isfinite(xi)) {
-        if (distance2 != NULL) {
-            *distance2 = NAN;
-        }
+        if (distance2 != NULL) { *distance2 = NAN; }
         return -1;
     }
     search f;
@@ -188,17 +172,16 @@ int cipc_exact_compare_distance(bool edge_edge, const double x[12], double xi, d
     int exponent = search_run(&f, edge_edge, x, xi, integer_xi);
     squared_difference(&f, integer_xi, difference);
     int sign = mpz_sgn(difference);
-    if (distance2 != NULL) {
-        *distance2 = cipc_nearest_double(f.least_numerator, f.least_denominator, 2L * exponent);
-    }
+    if (distance2 != NULL) { *distance2 = cipc_nearest_double(f.least_numerator, f.least_denominator, 2L * exponent); }
     mpz_clears(integer_xi, difference, NULL);
     search_clear(&f);
     return sign;
 }
 
-/* (d - xi) / unit = (N - X^2 D) / (sqrt(N D) + X D) for d^2 = N/D, xi = X: no cancellation, and only the root is inexact. The root is enclosed between
- * integers over 2^bits; when both ends give the same double, that is the answer; else more bits. This ends: a gap that lies
- * on the border of two roundings is rational, hence so is the root, which is then found exactly. difference is not 0, so N or X is not, and low > 0. */
+/* (d - xi) / unit = (N - X^2 D) / (sqrt(N D) + X D) for d^2 = N/D, xi = X: no cancellation, and only the root is inexact. The root is
+ * enclosed between integers over 2^bits; when both ends give the same double, that is the answer; else more bits. This ends: a gap that
+ * lies on the border of two roundings is rational, hence so is the root, which is then found exactly. difference is not 0, so N or X is
+ * not, and low > 0. */
 static double rounded_quotient(const search *f, const mpz_t integer_xi, const mpz_t difference, int exponent)
 {
     mpz_t product, root, remainder, low, high, numerator;
@@ -222,9 +205,7 @@ static double rounded_quotient(const search *f, const mpz_t integer_xi, const mp
 
 double cipc_exact_gap(bool edge_edge, const double x[12], double xi)
 {
-    if (!cipc_all_finite(x, 12) || !isfinite(xi)) {
-        return NAN;
-    }
+    if (!cipc_all_finite(x, 12) || !isfinite(xi)) { return NAN; }
     search f;
     mpz_t integer_xi, difference;
     search_init(&f);

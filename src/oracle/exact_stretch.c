@@ -38,17 +38,13 @@ static int definiteness(mpz_t m[3])
     mpz_submul(determinant, m[1], m[1]);
     int sign = mpz_sgn(determinant), first = mpz_sgn(m[0]), last = mpz_sgn(m[2]);
     mpz_clear(determinant);
-    if (sign < 0 || first < 0 || last < 0) {
-        return -1;
-    }
+    if (sign < 0 || first < 0 || last < 0) { return -1; }
     return sign > 0 ? 1 : 0;
 }
 
 int cipc_exact_compare_stretch(const double rest[9], const double x[9], double limit)
 {
-    if (!cipc_all_finite(rest, 9) || !cipc_all_finite(x, 9) || !isfinite(limit)) {
-        return -1;
-    }
+    if (!cipc_all_finite(rest, 9) || !cipc_all_finite(x, 9) || !isfinite(limit)) { return -1; }
     mpz_t square, now[3], m[3];
     mpz_inits(square, now[0], now[1], now[2], m[0], m[1], m[2], NULL);
     int exponent = cipc_common_exponent(x, 9, cipc_common_exponent(rest, 9, 0));

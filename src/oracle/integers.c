@@ -9,9 +9,7 @@ enum { MANTISSA_BITS = 53, SMALLEST_EXPONENT = -1074, LARGE_EXPONENT = 2048 };
 bool cipc_all_finite(const double *x, int n)
 {
     for (int i = 0; i < n; i++) {
-        if (!isfinite(x[i])) {
-            return false;
-        }
+        if (!isfinite(x[i])) { return false; }
     }
     return true;
 }
@@ -63,22 +61,16 @@ static long bit_length(const mpz_t z)
 /* Drop the lowest bits of q >= 0, rounding to nearest, ties to even; `sticky`: a non-zero tail below q was cut off before. */
 static void round_off(mpz_t q, long drop, bool sticky)
 {
-    if (drop <= 0) {
-        return;
-    }
+    if (drop <= 0) { return; }
     bool half = mpz_tstbit(q, (mp_bitcnt_t)(drop - 1)) != 0;
     bool below = sticky || (mpz_sgn(q) != 0 && mpz_scan1(q, 0) < (mp_bitcnt_t)(drop - 1));
     mpz_fdiv_q_2exp(q, q, (mp_bitcnt_t)drop);
-    if (half && (below || mpz_odd_p(q))) {
-        mpz_add_ui(q, q, 1);
-    }
+    if (half && (below || mpz_odd_p(q))) { mpz_add_ui(q, q, 1); }
 }
 
 double cipc_nearest_double(const mpz_t numerator, const mpz_t denominator, long exponent)
 {
-    if (mpz_sgn(numerator) == 0) {
-        return 0.0;
-    }
+    if (mpz_sgn(numerator) == 0) { return 0.0; }
     mpz_t q, d, r;
     mpz_inits(q, d, r, NULL);
     mpz_abs(q, numerator);
@@ -92,9 +84,7 @@ double cipc_nearest_double(const mpz_t numerator, const mpz_t denominator, long 
     }
     mpz_fdiv_qr(q, r, q, d);
     long unit = exponent - shift, drop = bit_length(q) - MANTISSA_BITS;
-    if (unit + drop < SMALLEST_EXPONENT) {
-        drop = SMALLEST_EXPONENT - unit;
-    }
+    if (unit + drop < SMALLEST_EXPONENT) { drop = SMALLEST_EXPONENT - unit; }
     round_off(q, drop, mpz_sgn(r) != 0);
     long scale = unit + drop;
     scale = scale > LARGE_EXPONENT ? LARGE_EXPONENT : scale;
@@ -115,16 +105,12 @@ void cipc_integer3_clear(cipc_integer3 *v)
 
 void cipc_integer3_from_doubles(cipc_integer3 *v, const double x[3], int exponent)
 {
-    for (int k = 0; k < 3; k++) {
-        cipc_integer_from_double(v->c[k], x[k], exponent);
-    }
+    for (int k = 0; k < 3; k++) { cipc_integer_from_double(v->c[k], x[k], exponent); }
 }
 
 void cipc_integer3_sub(cipc_integer3 *r, const cipc_integer3 *a, const cipc_integer3 *b)
 {
-    for (int k = 0; k < 3; k++) {
-        mpz_sub(r->c[k], a->c[k], b->c[k]);
-    }
+    for (int k = 0; k < 3; k++) { mpz_sub(r->c[k], a->c[k], b->c[k]); }
 }
 
 void cipc_integer3_cross(cipc_integer3 *r, const cipc_integer3 *a, const cipc_integer3 *b)
@@ -140,9 +126,7 @@ void cipc_integer3_dot(mpz_t r, const cipc_integer3 *a, const cipc_integer3 *b)
 {
     mpz_t sum;
     mpz_init(sum);
-    for (int k = 0; k < 3; k++) {
-        mpz_addmul(sum, a->c[k], b->c[k]);
-    }
+    for (int k = 0; k < 3; k++) { mpz_addmul(sum, a->c[k], b->c[k]); }
     mpz_swap(r, sum);
     mpz_clear(sum);
 }

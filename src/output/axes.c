@@ -5,6 +5,8 @@
 #include <stdio.h>
 
 static const double margin_of_range = 0.06;   /* of the range, above and below */
+static const double air_of_decade = 2;        /* factor */
+static const double least_log = 1e-300, greatest_log = 1e300; /* a logarithmic axis ends there */
 static const double small_text = 12, title_text = 14; /* pixels */
 enum { MOST_TICKS = 6, MOST_DECADES = 8 };
 
@@ -49,7 +51,7 @@ void cipc_axes_settle(cipc_axes *axes)
     if (axes->empty) {
         axes->x_lo = 0;
         axes->x_hi = 1;
-        axes->y_lo = axes->log_y ? 1e-6 : 0;
+        axes->y_lo = axes->log_y ? 0.1 : 0;
         axes->y_hi = 1;
         return;
     }
@@ -64,8 +66,9 @@ void cipc_axes_settle(cipc_axes *axes)
     if (!(hi > lo)) {
         hi = lo + 1;
     }
-    axes->y_lo = fmax(pow(10, lo), 1e-300);
-    axes->y_hi = pow(10, hi);
+    const double above = axes->y_hi > 0.7 * pow(10, hi) ? air_of_decade : 1; /* a curve along the box's side is hard to see */
+    axes->y_lo = fmax(pow(10, lo), least_log);
+    axes->y_hi = fmin(above * pow(10, hi), greatest_log);
 }
 
 static double place_x(const cipc_axes *axes, double x)
@@ -141,11 +144,11 @@ static void put_linear_y_ticks(const cipc_axes *axes, cairo_t *cr)
 
 static void put_log_y_ticks(const cipc_axes *axes, cairo_t *cr)
 {
-    const int lo = (int)lround(log10(axes->y_lo)), hi = (int)lround(log10(axes->y_hi)), stride = (hi - lo + MOST_DECADES - 1) / MOST_DECADES;
+    const int lo = (int)lround(log10(axes->y_lo)), hi = (int)floor(log10(axes->y_hi) + 1e-9), stride = (hi - lo + MOST_DECADES - 1) / MOST_DECADES;
     for (int decade = lo; decade <= hi; decade += stride) {
         char text[32];
         snprintf(text, sizeof text, "1e%d", decade);
-        put_y_tick(axes, cr, fmin(fmax(pow(10, decade), axes->y_lo), axes->y_hi), text);
+        put_y_tick(axes, cr, pow(10, decade), text);
     }
 }
 

@@ -151,8 +151,12 @@ static void draw_newton(const table *t, cairo_t *cr)
 {
     const column columns[] = {NEWTON};
     cipc_axes axes = panel(t, 1, 1, false, columns, 1);
+    const double step = t->count > 1 ? (t->values[TIME][t->count - 1] - t->values[TIME][0]) / (t->count - 1) : 1;
+    if (!axes.empty && isfinite(step)) {
+        cipc_axes_include(&axes, axes.x_lo - step / 2, 0);
+        cipc_axes_include(&axes, axes.x_hi + step / 2, 0);
+    }
     cipc_axes_settle(&axes);
-    const double step = t->count > 1 ? (t->values[TIME][t->count - 1] - t->values[TIME][0]) / (t->count - 1) : axes.x_hi - axes.x_lo;
     axes.y_lo = 0;
     cipc_axes_draw(&axes, cr, "Newton iterations per step", "time [s]", "[1]");
     cipc_axes_bars(&axes, cr, t->values[TIME], t->values[NEWTON], t->count, 0.8 * step, cipc_curve_colour(0));

@@ -10,22 +10,16 @@ void *__real_realloc(void *block, size_t size);
 static void *grow(void *block, int count, size_t size)
 {
     /* Capacities are powers of two, so growing one by one stays linear. */
-    if (count > 0 && (count & (count - 1)) != 0) {
-        return block;
-    }
+    if (count > 0 && (count & (count - 1)) != 0) { return block; }
     void *grown = __real_realloc(block, (count > 0 ? 2 * (size_t)count : 1) * size);
-    if (grown == NULL) {
-        abort();
-    }
+    if (grown == NULL) { abort(); }
     return grown;
 }
 
 hand_model *hand_model_create(void)
 {
     hand_model *h = __real_realloc(NULL, sizeof *h);
-    if (h == NULL) {
-        abort();
-    }
+    if (h == NULL) { abort(); }
     memset(h, 0, sizeof *h);
     return h;
 }
@@ -77,9 +71,7 @@ void hand_edge(hand_model *h, int a, int b)
     int low = a < b ? a : b, high = a < b ? b : a;
     /* Edges of one mesh repeat soon if at all: look at the latest first. */
     for (int e = m->edge_count - 1; e >= 0; e--) {
-        if (m->edges[e][0] == low && m->edges[e][1] == high) {
-            return;
-        }
+        if (m->edges[e][0] == low && m->edges[e][1] == high) { return; }
     }
     m->edges = grow(m->edges, m->edge_count, sizeof *m->edges);
     m->edges[m->edge_count][0] = low;
@@ -99,6 +91,15 @@ void hand_triangle(hand_model *h, int a, int b, int c)
     hand_edge(h, a, b);
     hand_edge(h, b, c);
     hand_edge(h, c, a);
+}
+
+int hand_new_triangle(hand_model *h, int body, const double x[9])
+{
+    int first = hand_node(h, body, x[0], x[1], x[2]);
+    hand_node(h, body, x[3], x[4], x[5]);
+    hand_node(h, body, x[6], x[7], x[8]);
+    hand_triangle(h, first, first + 1, first + 2);
+    return first;
 }
 
 void hand_tetrahedron(hand_model *h, int a, int b, int c, int d)
@@ -130,7 +131,5 @@ int hand_grid(hand_model *h, int body, const double origin[3], const double u[3]
 
 void hand_translate(hand_model *h, const double t[3])
 {
-    for (int i = 0; i < 3 * h->model.node_count; i++) {
-        h->x[i] += t[i % 3];
-    }
+    for (int i = 0; i < 3 * h->model.node_count; i++) { h->x[i] += t[i % 3]; }
 }

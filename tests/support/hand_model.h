@@ -1,5 +1,5 @@
-/* Models made by hand for the tests of the monitors: only the fields that monitors read are filled, anything may be degenerate, and loose points, loose edges and
- * tetrahedra are allowed. Memory is malloc'd, so that counting allocators see the code under test only. */
+/* Models made by hand for the tests of the monitors: only the fields that monitors read are filled, anything may be degenerate, and loose
+ * points, loose edges and tetrahedra are allowed. Memory is malloc'd, so that counting allocators see the code under test only. */
 #ifndef SUPPORT_HAND_MODEL_H
 #define SUPPORT_HAND_MODEL_H
 
@@ -23,6 +23,8 @@ int hand_node(hand_model *h, int body, double x, double y, double z);
 void hand_edge(hand_model *h, int a, int b);
 /* A triangle and those of its edges that the model does not have yet. */
 void hand_triangle(hand_model *h, int a, int b, int c);
+/* Three new nodes of a body and their triangle. Returns the first node. */
+int hand_new_triangle(hand_model *h, int body, const double x[9]);
 void hand_tetrahedron(hand_model *h, int a, int b, int c, int d);
 /* A grid of nx * ny cells with corner `origin` spanned by vectors u and v, two triangles a cell. Returns the first node. */
 int hand_grid(hand_model *h, int body, const double origin[3], const double u[3], const double v[3], int nx, int ny);

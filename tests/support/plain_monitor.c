@@ -13,22 +13,16 @@ bool plain_is_exempt(const cipc_model *m, const int *a, int na, const int *b, in
     for (int i = 0; i < na; i++) {
         fixed = fixed && m->bodies[m->node_body[a[i]]].fixed;
         for (int j = 0; j < nb; j++) {
-            if (a[i] == b[j]) {
-                return true;
-            }
+            if (a[i] == b[j]) { return true; }
         }
     }
-    for (int j = 0; j < nb; j++) {
-        fixed = fixed && m->bodies[m->node_body[b[j]]].fixed;
-    }
+    for (int j = 0; j < nb; j++) { fixed = fixed && m->bodies[m->node_body[b[j]]].fixed; }
     return fixed;
 }
 
 static void gather(double *to, const double *x, const int *nodes, int n)
 {
-    for (int i = 0; i < n; i++) {
-        memcpy(&to[3 * i], &x[3 * (size_t)nodes[i]], 3 * sizeof *x);
-    }
+    for (int i = 0; i < n; i++) { memcpy(&to[3 * i], &x[3 * (size_t)nodes[i]], 3 * sizeof *x); }
 }
 
 static void look_at_gap(plain_report *r, const cipc_model *m, const double *x, bool edge_edge, const int *a, int na, const int *b, int nb,
@@ -55,9 +49,7 @@ static void look_at_edge(plain_report *r, const cipc_model *m, const double *x, 
         r->crossing = r->crossing || (!exempt && cipc_edge_triangle_intersect(a, b));
     }
     for (int f = edge + 1; f < m->edge_count; f++) {
-        if (!plain_is_exempt(m, e, 2, m->edges[f], 2, skip_fixed)) {
-            look_at_gap(r, m, x, true, e, 2, m->edges[f], 2, reach);
-        }
+        if (!plain_is_exempt(m, e, 2, m->edges[f], 2, skip_fixed)) { look_at_gap(r, m, x, true, e, 2, m->edges[f], 2, reach); }
     }
 }
 
@@ -81,14 +73,8 @@ static void look_at_strain(plain_report *r, const cipc_model *m, const double *x
 plain_report plain_monitor(const cipc_model *m, const double *x, double reach, bool skip_fixed)
 {
     plain_report r = {.min_gap = INFINITY};
-    for (int e = 0; e < m->edge_count; e++) {
-        look_at_edge(&r, m, x, e, reach, skip_fixed);
-    }
-    for (int i = 0; i < m->node_count; i++) {
-        look_at_point(&r, m, x, i, reach, skip_fixed);
-    }
-    for (int t = 0; t < m->triangle_count; t++) {
-        look_at_strain(&r, m, x, t);
-    }
+    for (int e = 0; e < m->edge_count; e++) { look_at_edge(&r, m, x, e, reach, skip_fixed); }
+    for (int i = 0; i < m->node_count; i++) { look_at_point(&r, m, x, i, reach, skip_fixed); }
+    for (int t = 0; t < m->triangle_count; t++) { look_at_strain(&r, m, x, t); }
     return r;
 }

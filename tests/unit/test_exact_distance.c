@@ -68,9 +68,7 @@ static void draw_stencil(uint64_t *seed, double x[12])
         x[i] = kind == 0 ? random_below(seed, 3) : kind == 1 ? random_below(seed, 9) * 0.125 : random_uniform(seed, -1, 1);
     }
     if (kind == 3) { /* nearly parallel, nearly flat */
-        for (int i = 0; i < 3; i++) {
-            x[9 + i] = x[6 + i] + (x[3 + i] - x[i]) * (1 + random_uniform(seed, -1, 1) * 0x1p-30);
-        }
+        for (int i = 0; i < 3; i++) { x[9 + i] = x[6 + i] + (x[3 + i] - x[i]) * (1 + random_uniform(seed, -1, 1) * 0x1p-30); }
     }
 }
 
@@ -99,9 +97,7 @@ static void test_against_the_slow_twin(void **state)
         /* mpq_get_d truncates: the nearest double is that or the next. */
         assert_true(distance2 == mpq_get_d(best) || distance2 == nextafter(mpq_get_d(best), INFINITY));
     }
-    for (int i = 0; i < 3; i++) {
-        assert_true(signs[i] > SAMPLES / 50);
-    }
+    for (int i = 0; i < 3; i++) { assert_true(signs[i] > SAMPLES / 50); }
     q_clear(x, 12);
     mpq_clears(best, square, NULL);
 }
@@ -167,9 +163,7 @@ static void test_scales(void **state)
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         for (int e = -300; e <= 300; e += 300) {
             double x[12], distance2, xi = sqrt(known[i].distance2);
-            for (int k = 0; k < 12; k++) {
-                x[k] = ldexp(known[i].x[k], e);
-            }
+            for (int k = 0; k < 12; k++) { x[k] = ldexp(known[i].x[k], e); }
             cipc_exact_compare_distance(known[i].edge_edge, x, 0, &distance2);
             assert_true(distance2 == ldexp(known[i].distance2, 2 * e));
             if (xi * xi == known[i].distance2) {
@@ -210,8 +204,12 @@ static void test_non_finite_proves_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known_cases), cmocka_unit_test(test_against_the_slow_twin), cmocka_unit_test(test_gap_is_rounded_to_nearest),
-        cmocka_unit_test(test_gap_beyond_double), cmocka_unit_test(test_scales), cmocka_unit_test(test_non_finite_proves_nothing),
+        cmocka_unit_test(test_known_cases),
+        cmocka_unit_test(test_against_the_slow_twin),
+        cmocka_unit_test(test_gap_is_rounded_to_nearest),
+        cmocka_unit_test(test_gap_beyond_double),
+        cmocka_unit_test(test_scales),
+        cmocka_unit_test(test_non_finite_proves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -81,7 +81,7 @@ static void test_degenerate(void **state)
 {
     (void)state;
     const double point[9] = {0}, line[9] = {0, 0, 0, 1, 0, 0, 2, 0, 0};
-    assert_int_equal(cipc_exact_compare_stretch(unit_triangle, point, 1), 1);  /* collapsed: stretch 0 */
+    assert_int_equal(cipc_exact_compare_stretch(unit_triangle, point, 1), 1); /* collapsed: stretch 0 */
     assert_int_equal(cipc_exact_compare_stretch(point, point, 1), 0);
     assert_int_equal(cipc_exact_compare_stretch(point, unit_triangle, 1), -1); /* infinite stretch */
     assert_int_equal(cipc_exact_compare_stretch(line, unit_triangle, 100), -1);
@@ -102,8 +102,12 @@ static void test_non_finite_proves_nothing(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_ulp_of_the_limit), cmocka_unit_test(test_both_stretches_at_the_limit), cmocka_unit_test(test_shear),
-        cmocka_unit_test(test_rigid_motion), cmocka_unit_test(test_order_of_nodes), cmocka_unit_test(test_degenerate),
+        cmocka_unit_test(test_one_ulp_of_the_limit),
+        cmocka_unit_test(test_both_stretches_at_the_limit),
+        cmocka_unit_test(test_shear),
+        cmocka_unit_test(test_rigid_motion),
+        cmocka_unit_test(test_order_of_nodes),
+        cmocka_unit_test(test_degenerate),
         cmocka_unit_test(test_non_finite_proves_nothing),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

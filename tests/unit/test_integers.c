@@ -62,24 +62,24 @@ static double nearest(const char *numerator, const char *denominator, long expon
 static void test_ties_go_to_even(void **state)
 {
     (void)state;
-    assert_true(nearest("0x20000000000001", "1", 0) == 0x1p53);           /* 2^53 + 1: between 2^53 and 2^53 + 2 */
-    assert_true(nearest("0x20000000000003", "1", 0) == 0x1p53 + 4);       /* 2^53 + 3: between + 2 (odd) and + 4 */
+    assert_true(nearest("0x20000000000001", "1", 0) == 0x1p53);     /* 2^53 + 1: between 2^53 and 2^53 + 2 */
+    assert_true(nearest("0x20000000000003", "1", 0) == 0x1p53 + 4); /* 2^53 + 3: between + 2 (odd) and + 4 */
     assert_true(nearest("-0x20000000000001", "1", 0) == -0x1p53);
-    assert_true(nearest("0x200000000000010000000000000001", "1", 0) > 0x1p117); /* just above the tie */
+    assert_true(nearest("0x200000000000010000000000000001", "1", 0) > 0x1p117);  /* just above the tie */
     assert_true(nearest("0x20000000000000ffffffffffffffff", "1", 0) == 0x1p117); /* just below it */
-    assert_true(nearest("0x3fffffffffffff", "1", 0) == 0x1p54);           /* carries into the next binade */
+    assert_true(nearest("0x3fffffffffffff", "1", 0) == 0x1p54);                  /* carries into the next binade */
 }
 
 static void test_underflow_and_overflow(void **state)
 {
     (void)state;
     assert_true(nearest("1", "1", -1074) == 0x1p-1074);
-    assert_true(nearest("1", "1", -1075) == 0.0);          /* a tie with 0 */
-    assert_true(nearest("3", "1", -1076) == 0x1p-1074);    /* 0.75 of the least number */
+    assert_true(nearest("1", "1", -1075) == 0.0);       /* a tie with 0 */
+    assert_true(nearest("3", "1", -1076) == 0x1p-1074); /* 0.75 of the least number */
     assert_true(nearest("1", "3", -1074) == 0.0);
     assert_true(nearest("2", "3", -1074) == 0x1p-1074);
-    assert_true(nearest("5", "1", -1075) == 0x1p-1073);    /* 2.5 units: a tie to the even 2 */
-    assert_true(nearest("7", "1", -1075) == 0x1p-1072);    /* 3.5 units: a tie to the even 4 */
+    assert_true(nearest("5", "1", -1075) == 0x1p-1073); /* 2.5 units: a tie to the even 2 */
+    assert_true(nearest("7", "1", -1075) == 0x1p-1072); /* 3.5 units: a tie to the even 4 */
     assert_true(nearest("1", "1", -5000) == 0.0);
     assert_true(nearest("0x1fffffffffffff", "1", 971) == DBL_MAX);
     assert_true(isinf(nearest("0x3fffffffffffff", "1", 970))); /* half an ulp above DBL_MAX */
@@ -133,7 +133,7 @@ static void test_vectors(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_round_trip), cmocka_unit_test(test_common_exponent), cmocka_unit_test(test_finite),
+        cmocka_unit_test(test_round_trip),      cmocka_unit_test(test_common_exponent),        cmocka_unit_test(test_finite),
         cmocka_unit_test(test_ties_go_to_even), cmocka_unit_test(test_underflow_and_overflow), cmocka_unit_test(test_quotients),
         cmocka_unit_test(test_vectors),
     };

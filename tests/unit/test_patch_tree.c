@@ -32,7 +32,7 @@ static void test_rounding_to_float(void **state)
 static void draw_boxes(uint64_t *seed, cipc_patch_box *boxes, int count)
 {
     for (int i = 0; i < count; i++) {
-        double size = pow(10, random_uniform(seed, -6, random_below(seed, 5) == 0 ? 1 : -1));
+        double size = pow(10, random_uniform(seed, random_below(seed, 2) == 0 ? -1 : -6, 1));
         for (int k = 0; k < 3; k++) {
             double corner = random_below(seed, 4) == 0 ? 0.25 * random_below(seed, 5) : random_uniform(seed, 0, 1);
             boxes[i].lo[k] = cipc_round_down(corner);
@@ -44,14 +44,13 @@ static void draw_boxes(uint64_t *seed, cipc_patch_box *boxes, int count)
 static bool overlap(const cipc_patch_box *a, const cipc_patch_box *b)
 {
     bool meets = true;
-    for (int k = 0; k < 3; k++) {
-        meets = meets && a->lo[k] <= b->hi[k] && b->lo[k] <= a->hi[k];
-    }
+    for (int k = 0; k < 3; k++) { meets = meets && a->lo[k] <= b->hi[k] && b->lo[k] <= a->hi[k]; }
     return meets;
 }
 
 /* The places that the tree reports for one box, in [begin, end), as the monitors ask. */
-static void ask(const cipc_patch_tree *tree, const cipc_patch_box *box, int begin, int end, cipc_place_list *patches, int times[LARGEST_COUNT])
+static void ask(const cipc_patch_tree *tree, const cipc_patch_box *box, int begin, int end, cipc_place_list *patches,
+                int times[LARGEST_COUNT])
 {
     patches->count = 0;
     assert_true(cipc_patch_tree_query(tree, box, begin, end, patches));
@@ -75,9 +74,7 @@ static void check_tree(uint64_t *seed, int count, long *hits, long *misses)
     assert_true(cipc_patch_tree_init(&tree, count));
     for (int round = 0; round < 2; round++) { /* the second time, the boxes have moved */
         draw_boxes(seed, boxes, count);
-        for (int i = 0; i < count; i++) {
-            cipc_patch_tree_set(&tree, i, &boxes[i]);
-        }
+        for (int i = 0; i < count; i++) { cipc_patch_tree_set(&tree, i, &boxes[i]); }
         cipc_patch_tree_refit(&tree);
         for (int q = 0; q < 40; q++) {
             cipc_patch_box box;
@@ -95,9 +92,7 @@ static void check_tree(uint64_t *seed, int count, long *hits, long *misses)
     for (int i = 0; i < count; i++) {
         cipc_patch_box box = cipc_patch_tree_item_box(&tree, i), patch = cipc_patch_tree_patch_box(&tree, i / CIPC_PATCH_SIZE);
         assert_memory_equal(&box, &boxes[i], sizeof box);
-        for (int k = 0; k < 3; k++) {
-            assert_true(patch.lo[k] <= box.lo[k] && patch.hi[k] >= box.hi[k]);
-        }
+        for (int k = 0; k < 3; k++) { assert_true(patch.lo[k] <= box.lo[k] && patch.hi[k] >= box.hi[k]); }
     }
     free(patches.places);
     cipc_patch_tree_free(&tree);
@@ -110,10 +105,7 @@ static void test_against_all_pairs(void **state)
     const int counts[] = {0, 1, 7, 8, 9, 63, 64, 65, 512, 513, LARGEST_COUNT};
     uint64_t seed = 61;
     long hits = 0, misses = 0;
-    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
-        check_tree(&seed, counts[i], &hits, &misses);
-    }
-    print_message("%ld %ld\n", hits, misses);
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) { check_tree(&seed, counts[i], &hits, &misses); }
     assert_true(hits > 1000 && misses > 1000);
 }
 
@@ -171,9 +163,7 @@ static void test_lack_of_memory(void **state)
         fail_allocation(n);
         bool ok = cipc_patch_tree_init(&tree, 100);
         if (ok) {
-            for (int i = 0; i < 100; i++) {
-                cipc_patch_tree_set(&tree, i, &all);
-            }
+            for (int i = 0; i < 100; i++) { cipc_patch_tree_set(&tree, i, &all); }
             cipc_patch_tree_refit(&tree);
             ok = cipc_patch_tree_query(&tree, &all, 0, 100, &patches);
         }
@@ -182,9 +172,7 @@ static void test_lack_of_memory(void **state)
         fail_allocation(0);
         free(patches.places);
         cipc_patch_tree_free(&tree);
-        if (ok) {
-            break;
-        }
+        if (ok) { break; }
     }
     assert_int_equal(failures, 4); /* three levels (13, 2, 1 patches) and the list of answers */
 }
@@ -192,8 +180,9 @@ static void test_lack_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_rounding_to_float), cmocka_unit_test(test_against_all_pairs), cmocka_unit_test(test_boxes_that_touch_overlap),
-        cmocka_unit_test(test_few_patches_are_visited), cmocka_unit_test(test_lack_of_memory),
+        cmocka_unit_test(test_rounding_to_float),        cmocka_unit_test(test_against_all_pairs),
+        cmocka_unit_test(test_boxes_that_touch_overlap), cmocka_unit_test(test_few_patches_are_visited),
+        cmocka_unit_test(test_lack_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

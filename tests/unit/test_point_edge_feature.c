@@ -68,6 +68,9 @@ static void test_zero_length_edge_is_a_point(void **state)
     const double x[9] = {5, 4, 3, 1, 1, 1, 1, 1, 1};
     assert_int_equal(cipc_point_edge_feature(x).kind, CIPC_POINT_POINT);
     assert_true(cipc_point_edge_distance2(x) == 16.0 + 9.0 + 4.0);
+    const double tiny[9] = {0.5e-160, 1, 0, 0, 0, 0, 1e-160, 0, 0}; /* its squared length has next to no digits */
+    assert_int_equal(cipc_point_edge_feature(tiny).kind, CIPC_POINT_POINT);
+    assert_true(cipc_point_edge_distance2(tiny) == 1.0);
 }
 
 /* The check must be able to fail: the line of the edge in the place of its end is caught. */

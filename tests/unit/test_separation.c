@@ -12,8 +12,9 @@
 #include "invariant/separation.h"
 #include "support/exact_geometry.h"
 
-/* A good lower bound misses by rounding only: 12 sqrt(3) u S for the bound itself, a few u d for the quotient, and the tilt of the direction, whose error is a few u
- * times S / sin(angle), the angle being at least 1e-3 or the ends tried as well. 2^-38 S is far above all of these and far below what matters. */
+/* A good lower bound misses by rounding only: 12 sqrt(3) u S for the bound itself, a few u d for the quotient, and the tilt of the
+ * direction, whose error is a few u times S / sin(angle), the angle being at least 1e-3 or the ends tried as well. 2^-38 S is far above
+ * all of these and far below what matters. */
 #define LOSS 0x1p-38
 
 static cipc_separation separate(bool edge_edge, const double x[12], double enough)
@@ -26,7 +27,8 @@ static void assert_is_lower_bound(bool edge_edge, const double x[12], double low
 {
     assert_true(lower == lower); /* not NaN */
     if (lower > 0 && cipc_exact_compare_distance(edge_edge, x, lower, NULL) < 0) {
-        fail_msg("%s: lower bound %.17g above the distance (gap %.3g)", edge_edge ? "edge-edge" : "point-triangle", lower, cipc_exact_gap(edge_edge, x, lower));
+        fail_msg("%s: lower bound %.17g above the distance (gap %.3g)", edge_edge ? "edge-edge" : "point-triangle", lower,
+                 cipc_exact_gap(edge_edge, x, lower));
     }
 }
 
@@ -82,7 +84,8 @@ static void test_bounds_are_tight(void **state)
         cipc_exact_compare_distance(edge_edge, x, 0, &distance2);
         double size = stencil_size(x, 12), distance = sqrt(distance2);
         cipc_separation s = separate(edge_edge, x, INFINITY);
-        if (distance > 1e-3 * size) { /* closer, the direction a - b between end points tilts more; that pair then goes to exact arithmetic */
+        if (distance >
+            1e-3 * size) { /* closer, the direction a - b between end points tilts more; that pair then goes to exact arithmetic */
             checked++;
             assert_true(s.lower >= distance - LOSS * size);
             assert_true(s.upper <= distance + LOSS * size || shape == 6);
@@ -102,7 +105,8 @@ static void test_close_layers(void **state)
         double gap = pow(10, random_uniform(&seed, -9, -2));
         double u = random_uniform(&seed, 0.1, 0.4), v = random_uniform(&seed, 0.1, 0.4), angle = random_uniform(&seed, 0.1, 3);
         const double point[12] = {5 + u, v, 7 + gap, 5, 0, 7, 6, 0, 7, 5, 1, 7};
-        const double edges[12] = {5 - cos(angle), -sin(angle), 7 + gap, 5 + cos(angle), sin(angle), 7 + gap, 4, 0.01 * u, 7, 6, 0.01 * v, 7};
+        const double edges[12] = {5 - cos(angle), -sin(angle), 7 + gap, 5 + cos(angle), sin(angle), 7 + gap, 4,
+                                  0.01 * u,       7,           6,       0.01 * v,       7};
         double true_gap = (7 + gap) - 7; /* Sterbenz: exact */
         cipc_separation s = cipc_separate_point_triangle(point, INFINITY), e = cipc_separate_edge_edge(edges, INFINITY);
         assert_true(s.tight && s.lower <= true_gap && s.lower > true_gap - 0x1p-46);
@@ -120,9 +124,7 @@ static void test_extreme_numbers_prove_nothing_false(void **state)
         double x[12];
         draw(&seed, i % SHAPES == 3 ? 0 : i % SHAPES, x);
         int first = exponents[random_below(&seed, 10)], second = exponents[random_below(&seed, 10)];
-        for (int k = 0; k < 12; k++) {
-            x[k] = ldexp(x[k], i % 2 == 0 || k < 6 ? first : second);
-        }
+        for (int k = 0; k < 12; k++) { x[k] = ldexp(x[k], i % 2 == 0 || k < 6 ? first : second); }
         bool edge_edge = random_below(&seed, 2) == 1;
         cipc_separation s = separate(edge_edge, x, INFINITY);
         assert_is_lower_bound(edge_edge, x, s.lower);
@@ -145,7 +147,8 @@ static void test_degenerate(void **state)
     assert_false(cipc_separate_edge_edge(meeting, INFINITY).lower > 0);
 }
 
-/* Exact comparison of the distance of edge and triangle, which do not meet, with a bound: the least of its five point-triangle and edge-edge distances. */
+/* Exact comparison of the distance of edge and triangle, which do not meet, with a bound: the least of its five point-triangle and
+ * edge-edge distances. */
 static bool edge_triangle_exceeds(const double edge[6], const double triangle[9], double distance)
 {
     double x[12];
@@ -173,7 +176,8 @@ static void test_edge_and_triangle(void **state)
         double x[15];
         draw(&seed, i % SHAPES, x);
         for (int k = 12; k < 15; k++) {
-            x[k] = i % SHAPES == 1 ? 0.25 * random_below(&seed, 4) : x[k - 12] + 0.5 * (x[k - 9] - x[k - 12]) + 0.3 * random_uniform(&seed, -1, 1) * stencil_size(x, 12);
+            x[k] = i % SHAPES == 1 ? 0.25 * random_below(&seed, 4)
+                                   : x[k - 12] + 0.5 * (x[k - 9] - x[k - 12]) + 0.3 * random_uniform(&seed, -1, 1) * stencil_size(x, 12);
         }
         bool meets = cipc_edge_triangle_intersect(x, &x[6]), proven = cipc_edge_triangle_apart(x, &x[6]);
         assert_false(meets && proven);
@@ -210,8 +214,12 @@ static void test_edge_beside_triangle_in_its_plane(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_lower_bounds), cmocka_unit_test(test_bounds_are_tight), cmocka_unit_test(test_close_layers),
-        cmocka_unit_test(test_extreme_numbers_prove_nothing_false), cmocka_unit_test(test_degenerate), cmocka_unit_test(test_edge_and_triangle),
+        cmocka_unit_test(test_lower_bounds),
+        cmocka_unit_test(test_bounds_are_tight),
+        cmocka_unit_test(test_close_layers),
+        cmocka_unit_test(test_extreme_numbers_prove_nothing_false),
+        cmocka_unit_test(test_degenerate),
+        cmocka_unit_test(test_edge_and_triangle),
         cmocka_unit_test(test_edge_beside_triangle_in_its_plane),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,0 +1,268 @@
+/* One run of a scene: check, open, step, close. */
+#include "cli/simulation.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include "cli/command.h"
+#include "cli/interrupt.h"
+
+double cipc_clock(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+char *cipc_path_in(const char *directory, const char *name)
+{
+    const size_t size = strlen(directory) + strlen(name) + 2;
+    char *path = cipc_alloc(size, 1);
+    if (path != NULL) {
+        snprintf(path, size, "%s/%s", directory, name);
+    }
+    return path;
+}
+
+/* mkdir -p. */
+static cipc_status make_directory(const char *directory, cipc_error *error)
+{
+    char *path = cipc_path_in(directory, "");
+    if (path == NULL) {
+        return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, directory, "no memory for the folder's name");
+    }
+    cipc_status status = CIPC_OK;
+    for (char *slash = strchr(path + 1, '/'); slash != NULL && status == CIPC_OK; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        if (mkdir(path, 0777) != 0 && errno != EEXIST) {
+            status = cipc_fail(error, CIPC_E_IO, path, "cannot create the output folder: %s", strerror(errno));
+        }
+        *slash = '/';
+    }
+    struct stat found;
+    if (status == CIPC_OK && (stat(directory, &found) != 0 || !S_ISDIR(found.st_mode))) {
+        status = cipc_fail(error, CIPC_E_IO, directory, "the output folder is not a folder");
+        cipc_fail_remedy(error, "name another folder with -o");
+    }
+    cipc_free(path);
+    return status;
+}
+
+/* ---- The state to begin with ---------------------------------------------------------------------------------------------- */
+
+/* An invariant that is broken before the first step is the scene's fault, not the solver's. */
+static cipc_status as_bad_input(cipc_status status)
+{
+    switch (status) {
+    case CIPC_E_VIOLATED_INTERSECTION: return CIPC_E_INITIAL_INTERSECTION;
+    case CIPC_E_VIOLATED_GAP: return CIPC_E_INITIAL_GAP;
+    case CIPC_E_VIOLATED_STRAIN: return CIPC_E_INITIAL_STRAIN;
+    case CIPC_E_VIOLATED_INVERSION: return CIPC_E_BAD_MESH;
+    case CIPC_E_VIOLATED_FINITE: return CIPC_E_OUT_OF_RANGE;
+    default: return status;
+    }
+}
+
+/* Checked with or without --no-monitor: the method's promise starts from a state that keeps it. */
+static cipc_status check_start(cipc_simulation *s, cipc_error *error)
+{
+    cipc_invariant_options options = cipc_invariant_options_default();
+    options.reach = s->scene->monitor_reach;
+    options.threads = s->scene->options.threads;
+    cipc_status status = cipc_monitor_create(&s->monitor, s->scene->model, &options, error);
+    if (status != CIPC_OK) {
+        return status;
+    }
+    cipc_invariant_report report;
+    cipc_invariant_report_init(&report);
+    status = cipc_monitor_check(s->monitor, s->scene->state->position, &report, error);
+    if (as_bad_input(status) != status) {
+        return cipc_fail(error, as_bad_input(status), s->scene->path, "the start: %s", error->what);
+    }
+    return status;
+}
+
+/* ---- Opening -------------------------------------------------------------------------------------------------------------- */
+
+/* Results of an earlier run in the folder, once the new trajectory has taken the old one's place. */
+static void remove_stale(const cipc_simulation *s)
+{
+    static const char *const names[] = {"summary.json", "trajectory.xdmf", "frames.png", "plots.png", "violation.obj", "violation.json", "failed.obj"};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        char *path = cipc_path_in(s->request->directory, names[i]);
+        if (path != NULL) {
+            remove(path);
+        }
+        cipc_free(path);
+    }
+}
+
+/* OBJ frames are numbered without gaps from `first` on. */
+static void remove_stale_obj(const cipc_simulation *s, int first)
+{
+    bool found = true;
+    for (int i = first; found; i++) {
+        char name[64];
+        snprintf(name, sizeof name, "obj/frame_%05d.obj", i);
+        char *path = cipc_path_in(s->request->directory, name);
+        found = path != NULL && remove(path) == 0;
+        cipc_free(path);
+    }
+}
+
+static cipc_status open_stats(cipc_simulation *s, const char *path, cipc_error *error)
+{
+    const bool resume = s->request->resume;
+    if (resume) {
+        cipc_status status = cipc_stats_resume(path, s->scene->state->step, &s->summary, error);
+        if (status != CIPC_OK) {
+            return status;
+        }
+        s->summary.resumed_from = s->scene->state->step;
+        s->earlier_seconds = s->summary.seconds;
+    }
+    s->stats = fopen(path, resume ? "ab" : "wb");
+    if (s->stats == NULL) {
+        return cipc_fail(error, CIPC_E_IO, path, "cannot write the statistics: %s", strerror(errno));
+    }
+    return CIPC_OK;
+}
+
+static cipc_status open_trajectory(cipc_simulation *s, const char *path, cipc_error *error)
+{
+    const cipc_scene *scene = s->scene;
+    const int room = scene->steps < 1000000 ? scene->steps + 1 : 1000000; /* a hint; see cipc/output.h */
+    if (!s->request->resume) {
+        return cipc_trajectory_create(&s->trajectory, path, scene->model, scene->state, scene->resolved, room, error);
+    }
+    cipc_status status = cipc_trajectory_resume(&s->trajectory, path, scene->model, scene->state, scene->resolved, room, error);
+    return status != CIPC_OK ? status : check_start(s, error);
+}
+
+/* A fresh run touches nothing in the folder before its own trajectory has taken the old one's place. */
+static cipc_status open_files(cipc_simulation *s, const char *trajectory, const char *stats, const char *scene, const char *obj, cipc_error *error)
+{
+    cipc_status status = s->request->resume ? CIPC_OK : make_directory(s->request->directory, error);
+    if (status == CIPC_OK) {
+        status = open_trajectory(s, trajectory, error);
+    }
+    if (status == CIPC_OK) {
+        remove_stale(s);
+        remove_stale_obj(s, s->scene->state->step + (s->request->resume ? 1 : 0));
+        status = open_stats(s, stats, error);
+    }
+    if (status == CIPC_OK) {
+        status = cipc_text_write(scene, s->scene->resolved, error);
+    }
+    if (status == CIPC_OK && s->request->write_obj) {
+        status = make_directory(obj, error);
+    }
+    return status;
+}
+
+static cipc_status open_run(cipc_simulation *s, cipc_error *error)
+{
+    const char *directory = s->request->directory;
+    char *trajectory = cipc_path_in(directory, "trajectory.h5"), *stats = cipc_path_in(directory, "stats.jsonl");
+    char *scene = cipc_path_in(directory, "scene.json"), *obj = cipc_path_in(directory, "obj");
+    cipc_status status = CIPC_OK;
+    if (trajectory == NULL || stats == NULL || scene == NULL || obj == NULL) {
+        status = cipc_fail(error, CIPC_E_OUT_OF_MEMORY, directory, "no memory for the names of files");
+    } else {
+        status = open_files(s, trajectory, stats, scene, obj, error);
+    }
+    cipc_free(trajectory);
+    cipc_free(stats);
+    cipc_free(scene);
+    cipc_free(obj);
+    return status;
+}
+
+/* ---- The whole ------------------------------------------------------------------------------------------------------------ */
+
+static void begin_summary(cipc_simulation *s)
+{
+    const cipc_scene *scene = s->scene;
+    s->summary = cipc_run_summary_default();
+    s->summary.scene_path = scene->path;
+    s->summary.scene_size = scene->size;
+    s->summary.scene_name = s->request->scene_name;
+    s->summary.command = s->request->command;
+    s->summary.steps_asked = scene->steps;
+    s->summary.monitored = s->request->monitor;
+    s->summary.tetrahedra = scene->model->tetrahedron_count;
+    s->summary.threads = scene->options.threads;
+    s->summary.seed = scene->seed;
+    for (int b = 0; b < scene->model->body_count; b++) {
+        const cipc_body *body = &scene->model->bodies[b];
+        s->summary.limited_triangles += body->material.strain_limit > 0 ? body->triangle_count : 0;
+    }
+}
+
+/* Everything that can be wrong with the input, before the output folder is touched. */
+static cipc_status prepare(cipc_simulation *s)
+{
+    cipc_status status = s->request->resume ? CIPC_OK : check_start(s, &s->error); /* a resumed run is checked when its state is known */
+    if (status == CIPC_OK) {
+        status = cipc_stepper_create(&s->stepper, s->scene->model, &s->scene->options, &s->error);
+    }
+    return status == CIPC_OK ? open_run(s, &s->error) : status;
+}
+
+static void say_interrupted(const cipc_simulation *s)
+{
+    fprintf(stderr, "cipc: %s: interrupted by a signal after step %d of %d: go on with --resume\n", s->request->directory,
+            s->scene->state->step < s->summary.steps_taken ? s->scene->state->step : s->summary.steps_taken, s->scene->steps);
+}
+
+static int run_to_the_end(cipc_simulation *s)
+{
+    s->first_step = s->scene->state->step;
+    s->summary.steps_taken = s->scene->state->step;
+    s->summary.time = s->scene->state->time;
+    cipc_status status = CIPC_OK;
+    if (!s->request->monitor) {
+        cipc_monitor_destroy(s->monitor);
+        s->monitor = NULL;
+    }
+    status = cipc_simulation_steps(s);
+    s->summary.status = status;
+    s->summary.error = status != CIPC_OK ? &s->error : NULL;
+    cipc_error later;
+    const cipc_status end = cipc_simulation_results(s, &later);
+    int exit_status = 0;
+    if (status != CIPC_OK) {
+        exit_status = cipc_say(&s->error);
+    }
+    if (end != CIPC_OK) {
+        const int second = cipc_say(&later);
+        exit_status = exit_status != 0 ? exit_status : second;
+    }
+    if (s->interrupted) {
+        say_interrupted(s);
+        exit_status = 1;
+    }
+    return exit_status;
+}
+
+static void clear(cipc_simulation *s)
+{
+    cipc_error ignored;
+    cipc_trajectory_close(s->trajectory, &ignored); /* still open only if something else has failed and been said */
+    cipc_stepper_destroy(s->stepper);
+    cipc_monitor_destroy(s->monitor);
+    if (s->stats != NULL) {
+        fclose(s->stats); /* every line was flushed and checked */
+    }
+}
+
+int cipc_simulate(cipc_scene *scene, const cipc_run_request *request)
+{
+    cipc_simulation s = {.request = request, .scene = scene, .begin = cipc_clock()};
+    cipc_interrupt_hold();
+    begin_summary(&s);
+    const int exit_status = prepare(&s) == CIPC_OK ? run_to_the_end(&s) : cipc_say(&s.error);
+    clear(&s);
+    return exit_status;
+}

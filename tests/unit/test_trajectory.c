@@ -1,0 +1,547 @@
+/* The trajectory file: exact to the bit, whole at every instant, refused when it is not ours. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <fcntl.h>
+#include <hdf5.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cipc/output.h"
+#include "support/failing_memory.h"
+#include "support/sample_run.h"
+
+static const char scene[] = "{\"steps\": 5, \"contact\": {\"dhat\": 0.001}, \"bodies\": [{\"name\": \"cloth\"}]}";
+
+typedef struct fixture {
+    sample_run run;
+    path folder, file;
+} fixture;
+
+static int set_up(void **state)
+{
+    fixture *f = malloc(sizeof *f);
+    fail_allocation(0);
+    f->run = sample_run_create();
+    f->folder = folder_make();
+    f->file = path_in(&f->folder, "trajectory.h5");
+    *state = f;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    fixture *f = *state;
+    fail_allocation(0);
+    sample_run_destroy(&f->run);
+    folder_remove(&f->folder);
+    free(f);
+    return 0;
+}
+
+static void accept(cipc_status status, const cipc_error *error)
+{
+    if (status != CIPC_OK) {
+        fail_msg("%s: %s", error->place, error->what);
+    }
+}
+
+/* Frames 0 .. frames-1 of the sample run; closed. */
+static void write_frames(fixture *f, int frames, int room)
+{
+    cipc_error error;
+    cipc_trajectory *t;
+    accept(cipc_trajectory_create(&t, f->file.text, f->run.model, f->run.state, scene, room, &error), &error);
+    for (int i = 1; i < frames; i++) {
+        sample_run_advance(&f->run);
+        accept(cipc_trajectory_append(t, f->run.state, &error), &error);
+    }
+    accept(cipc_trajectory_close(t, &error), &error);
+}
+
+static void assert_bits_equal(const double *a, const double *b, int count)
+{
+    assert_memory_equal(a, b, (size_t)count * sizeof *a);
+}
+
+/* The file has the frames of the sample run from 0 to at least `least`-1, all exact. Returns how many. */
+static int check_frames(const path *file, int least)
+{
+    cipc_error error;
+    int frames = 0;
+    accept(cipc_trajectory_count(file->text, &frames, &error), &error);
+    assert_true(frames >= least);
+    sample_run expected = sample_run_create();
+    const int nodes = expected.model->node_count;
+    double *position = calloc(3 * (size_t)nodes, sizeof *position), *times = calloc((size_t)frames, sizeof *times);
+    accept(cipc_trajectory_times(file->text, times, frames, &error), &error);
+    for (int i = 0; i < frames; i++) {
+        double time = -1;
+        accept(cipc_trajectory_read(file->text, i, position, nodes, &time, &error), &error);
+        assert_bits_equal(position, expected.state->position, 3 * nodes);
+        assert_bits_equal(&time, &expected.state->time, 1);
+        assert_bits_equal(&times[i], &expected.state->time, 1);
+        sample_run_advance(&expected);
+    }
+    free(position);
+    free(times);
+    sample_run_destroy(&expected);
+    return frames;
+}
+
+static void test_round_trip_with_room_to_spare_and_without(void **state)
+{
+    fixture *f = *state;
+    const int rooms[] = {0, 1, 2, 6, 100};
+    for (size_t i = 0; i < sizeof rooms / sizeof rooms[0]; i++) {
+        sample_run_destroy(&f->run);
+        f->run = sample_run_create();
+        write_frames(f, 6, rooms[i]);
+        assert_int_equal(check_frames(&f->file, 6), 6);
+    }
+    const path leftover = path_in(&f->folder, "trajectory.h5.partial");
+    assert_false(file_exists(&leftover));
+}
+
+static hsize_t first_extent(const char *file, const char *dataset)
+{
+    hid_t handle = H5Fopen(file, H5F_ACC_RDONLY, H5P_DEFAULT), data = H5Dopen(handle, dataset, H5P_DEFAULT), space = H5Dget_space(data);
+    hsize_t dims[3] = {0, 0, 0};
+    H5Sget_simple_extent_dims(space, dims, NULL);
+    H5Sclose(space);
+    H5Dclose(data);
+    H5Fclose(handle);
+    return dims[0];
+}
+
+/* Any HDF5 program finds as many frames as there are, and the topology. */
+static void test_closed_file_has_no_empty_frames(void **state)
+{
+    fixture *f = *state;
+    write_frames(f, 4, 50);
+    assert_int_equal(first_extent(f->file.text, "positions"), 4);
+    assert_int_equal(first_extent(f->file.text, "velocities"), 4);
+    assert_int_equal(first_extent(f->file.text, "time"), 4);
+    assert_int_equal(first_extent(f->file.text, "topology/triangles"), f->run.model->triangle_count);
+    assert_int_equal(first_extent(f->file.text, "topology/edges"), f->run.model->edge_count);
+    assert_int_equal(first_extent(f->file.text, "topology/bodies"), f->run.model->body_count);
+}
+
+static void test_same_run_gives_the_same_bytes(void **state)
+{
+    fixture *f = *state;
+    size_t size_a, size_b;
+    write_frames(f, 3, 3);
+    char *a = file_read(&f->file, &size_a);
+    sample_run_destroy(&f->run);
+    f->run = sample_run_create();
+    write_frames(f, 3, 3);
+    char *b = file_read(&f->file, &size_b);
+    assert_int_equal(size_a, size_b);
+    assert_memory_equal(a, b, size_a);
+    free(a);
+    free(b);
+}
+
+static void test_resume_restores_everything(void **state)
+{
+    fixture *f = *state;
+    write_frames(f, 3, 3);
+    sample_run other = sample_run_create();
+    cipc_error error;
+    cipc_trajectory *t;
+    accept(cipc_trajectory_resume(&t, f->file.text, other.model, other.state, scene, 10, &error), &error);
+    const cipc_state *a = f->run.state, *b = other.state;
+    assert_int_equal(b->step, a->step);
+    assert_bits_equal(&b->time, &a->time, 1);
+    assert_bits_equal(&b->barrier_stiffness, &a->barrier_stiffness, 1);
+    assert_bits_equal(&b->strain_stiffness_factor, &a->strain_stiffness_factor, 1);
+    assert_bits_equal(b->position, a->position, 3 * a->node_count);
+    assert_bits_equal(b->velocity, a->velocity, 3 * a->node_count);
+    for (int i = 0; i < 4; i++) {
+        sample_run_advance(&other);
+        accept(cipc_trajectory_append(t, other.state, &error), &error);
+    }
+    assert_int_equal(cipc_trajectory_frames(t), 7);
+    accept(cipc_trajectory_close(t, &error), &error);
+    assert_int_equal(check_frames(&f->file, 7), 7);
+    sample_run_destroy(&other);
+}
+
+/* Silence is part of the contract: nothing on stderr, and the caller's HDF5 error handler is back in place. */
+static cipc_status resume_quietly(fixture *f, const cipc_model *model, cipc_state *into, const char *json, cipc_error *error)
+{
+    const path log = path_in(&f->folder, "stderr");
+    H5E_auto2_t before, after;
+    void *data;
+    H5Eget_auto(H5E_DEFAULT, &before, &data);
+    fflush(stderr);
+    const int saved = dup(STDERR_FILENO), out = open(log.text, O_WRONLY | O_CREAT | O_TRUNC, 0600);
+    dup2(out, STDERR_FILENO);
+    cipc_trajectory *t = NULL;
+    cipc_status status = cipc_trajectory_resume(&t, f->file.text, model, into, json, 4, error);
+    if (status == CIPC_OK) {
+        cipc_trajectory_close(t, error);
+    } else {
+        assert_null(t);
+    }
+    fflush(stderr);
+    dup2(saved, STDERR_FILENO);
+    close(saved);
+    close(out);
+    H5Eget_auto(H5E_DEFAULT, &after, &data);
+    assert_true(before == after);
+    size_t size;
+    free(file_read(&log, &size));
+    assert_int_equal(size, 0);
+    return status;
+}
+
+static void test_resume_with_another_scene_is_refused(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    write_frames(f, 2, 2);
+    static const char longer[] = "{\"steps\": 500, \"output\": {\"obj\": true}, \"contact\": {\"dhat\": 0.001}, \"bodies\": [{\"name\": \"cloth\"}]}";
+    static const char other[] = "{\"steps\": 5, \"contact\": {\"dhat\": 0.002}, \"bodies\": [{\"name\": \"cloth\"}]}";
+    assert_int_equal(resume_quietly(f, f->run.model, f->run.state, longer, &error), CIPC_OK);
+    assert_int_equal(resume_quietly(f, f->run.model, f->run.state, other, &error), CIPC_E_NOT_RESUMABLE);
+    assert_non_null(strstr(error.what, "contact.dhat"));
+    assert_int_equal(resume_quietly(f, f->run.model, f->run.state, "no json", &error), CIPC_E_NOT_RESUMABLE);
+}
+
+static void test_resume_with_another_model_is_refused(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    write_frames(f, 2, 2);
+    sample_run other = sample_run_create();
+    const double before = other.state->position[0];
+    other.model->triangles[0][0] ^= 1;
+    assert_int_equal(resume_quietly(f, other.model, other.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    other.model->triangles[0][0] ^= 1;
+    other.model->rest[5] += 1e-12;
+    assert_int_equal(resume_quietly(f, other.model, other.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    other.model->rest[5] = f->run.model->rest[5];
+    other.model->bodies[0].name[0] = 'k';
+    assert_int_equal(resume_quietly(f, other.model, other.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    other.model->bodies[0].name[0] = 'c';
+    other.model->edge_count--;
+    assert_int_equal(resume_quietly(f, other.model, other.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    other.model->edge_count++;
+    assert_true(other.state->position[0] == before); /* a refusal leaves the state alone */
+    assert_int_equal(resume_quietly(f, other.model, other.state, scene, &error), CIPC_OK);
+    sample_run_destroy(&other);
+}
+
+static void test_damaged_files_are_refused(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    int frames;
+    size_t size;
+    write_frames(f, 3, 3);
+    char *bytes = file_read(&f->file, &size);
+    for (size_t kept = 0; kept < size; kept += size / 24 + 1) {
+        file_write(&f->file, bytes, kept);
+        assert_int_equal(cipc_trajectory_count(f->file.text, &frames, &error), CIPC_E_IO);
+        assert_int_equal(resume_quietly(f, f->run.model, f->run.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    }
+    file_write(&f->file, bytes, size - 1);
+    assert_int_equal(resume_quietly(f, f->run.model, f->run.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    free(bytes);
+    hid_t foreign = H5Fcreate(f->file.text, H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT); /* good HDF5, but no trajectory */
+    H5Fclose(foreign);
+    assert_int_equal(cipc_trajectory_count(f->file.text, &frames, &error), CIPC_E_IO);
+    assert_int_equal(resume_quietly(f, f->run.model, f->run.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+}
+
+/* A counter beyond the frames that there is room for cannot be right. */
+static void test_impossible_counter_is_refused(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    int frames;
+    write_frames(f, 3, 3);
+    const int64_t wrong[] = {4, -1, INT64_MAX};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        hid_t file = H5Fopen(f->file.text, H5F_ACC_RDWR, H5P_DEFAULT), counter = H5Dopen(file, "frames", H5P_DEFAULT);
+        H5Dwrite(counter, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &wrong[i]);
+        H5Dclose(counter);
+        H5Fclose(file);
+        assert_int_equal(cipc_trajectory_count(f->file.text, &frames, &error), CIPC_E_IO);
+    }
+}
+
+static void test_missing_files_and_frames(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    int frames;
+    double position[3 * 64], time;
+    assert_int_equal(cipc_trajectory_count(f->file.text, &frames, &error), CIPC_E_MISSING_FILE);
+    assert_int_equal(resume_quietly(f, f->run.model, f->run.state, scene, &error), CIPC_E_MISSING_FILE);
+    assert_non_null(strstr(error.remedy, "--resume"));
+    write_frames(f, 3, 3);
+    const int nodes = f->run.model->node_count;
+    assert_int_equal(cipc_trajectory_read(f->file.text, 3, position, nodes, &time, &error), CIPC_E_IO);
+    assert_int_equal(cipc_trajectory_read(f->file.text, -1, position, nodes, &time, &error), CIPC_E_IO);
+    assert_int_equal(cipc_trajectory_read(f->file.text, 0, position, nodes + 1, &time, &error), CIPC_E_IO);
+    assert_int_equal(cipc_trajectory_times(f->file.text, position, 4, &error), CIPC_E_IO);
+    assert_int_equal(cipc_trajectory_read(f->file.text, 0, NULL, nodes, NULL, &error), CIPC_OK);
+    assert_int_equal(cipc_trajectory_close(NULL, &error), CIPC_OK);
+}
+
+static void test_file_that_cannot_be_created(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    cipc_trajectory *t;
+    const path nowhere = path_in(&f->folder, "no/such/folder.h5");
+    assert_int_equal(cipc_trajectory_create(&t, nowhere.text, f->run.model, f->run.state, scene, 2, &error), CIPC_E_IO);
+    assert_null(t);
+    assert_non_null(strstr(error.place, "no/such"));
+    assert_non_null(strstr(error.what, "No such file"));
+}
+
+/* A run's file can be read by others while it grows. */
+static void test_reading_while_writing(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    cipc_trajectory *t;
+    accept(cipc_trajectory_create(&t, f->file.text, f->run.model, f->run.state, scene, 2, &error), &error);
+    for (int frames = 1; frames < 6; frames++) {
+        assert_int_equal(check_frames(&f->file, frames), frames);
+        sample_run_advance(&f->run);
+        accept(cipc_trajectory_append(t, f->run.state, &error), &error);
+    }
+    accept(cipc_trajectory_close(t, &error), &error);
+}
+
+/* ---- Interruption --------------------------------------------------------------------------------------------------------- */
+
+/* Child: append for ever, and tell after each frame. */
+static void append_until_killed(fixture *f, int pipe_end)
+{
+    cipc_trajectory *t;
+    if (cipc_trajectory_create(&t, f->file.text, f->run.model, f->run.state, scene, 2, NULL) != CIPC_OK) {
+        _exit(1);
+    }
+    for (;;) {
+        sample_run_advance(&f->run);
+        if (cipc_trajectory_append(t, f->run.state, NULL) != CIPC_OK || write(pipe_end, "", 1) != 1) {
+            _exit(1);
+        }
+    }
+}
+
+/* SIGKILL lands wherever the child then is: in an append, or in the copy to a larger file. The kill comes after `told` frames. */
+static void kill_after(fixture *f, int told)
+{
+    int ends[2];
+    assert_int_equal(pipe(ends), 0);
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        close(ends[0]);
+        append_until_killed(f, ends[1]);
+    }
+    close(ends[1]);
+    for (int i = 0; i < told; i++) {
+        char byte;
+        assert_int_equal(read(ends[0], &byte, 1), 1);
+    }
+    assert_int_equal(kill(child, SIGKILL), 0);
+    int how;
+    assert_int_equal(waitpid(child, &how, 0), child);
+    assert_true(WIFSIGNALED(how) && WTERMSIG(how) == SIGKILL);
+    close(ends[0]);
+}
+
+static void test_killed_run_leaves_whole_frames(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    for (int told = 1; told <= 40; told++) {
+        kill_after(f, told);
+        const int frames = check_frames(&f->file, told + 1);
+        sample_run other = sample_run_create();
+        cipc_trajectory *t;
+        accept(cipc_trajectory_resume(&t, f->file.text, other.model, other.state, scene, frames + 2, &error), &error);
+        assert_int_equal(other.state->step, frames - 1);
+        sample_run_advance(&other);
+        accept(cipc_trajectory_append(t, other.state, &error), &error);
+        accept(cipc_trajectory_close(t, &error), &error);
+        assert_int_equal(check_frames(&f->file, frames + 1), frames + 1);
+        sample_run_destroy(&other);
+    }
+}
+
+static size_t counter_offset(const path *file)
+{
+    hid_t handle = H5Fopen(file->text, H5F_ACC_RDONLY, H5P_DEFAULT), counter = H5Dopen(handle, "frames", H5P_DEFAULT);
+    const size_t offset = (size_t)H5Dget_offset(counter);
+    H5Dclose(counter);
+    H5Fclose(handle);
+    return offset;
+}
+
+/* Every state of the file that an append cut short can leave: some of the bytes that it changes are new, the counter is still old. All old
+ * frames must be there. This also proves that an append changes nothing that reading depends on. */
+static void test_append_cut_short_anywhere(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    cipc_trajectory *t;
+    size_t size_a, size_b;
+    accept(cipc_trajectory_create(&t, f->file.text, f->run.model, f->run.state, scene, 4, &error), &error);
+    sample_run_advance(&f->run);
+    accept(cipc_trajectory_append(t, f->run.state, &error), &error);
+    char *a = file_read(&f->file, &size_a);
+    sample_run_advance(&f->run);
+    accept(cipc_trajectory_append(t, f->run.state, &error), &error);
+    char *b = file_read(&f->file, &size_b);
+    accept(cipc_trajectory_close(t, &error), &error);
+    assert_int_equal(size_a, size_b); /* the room was there before */
+    file_write(&f->file, a, size_a);
+    const size_t counter = counter_offset(&f->file);
+    size_t differences = 0;
+    for (size_t i = 0; i < size_a; i++) {
+        if (a[i] == b[i] || (i >= counter && i < counter + sizeof(int64_t))) {
+            continue;
+        }
+        a[i] = b[i];
+        if (differences++ % 16 == 0) {
+            file_write(&f->file, a, size_a);
+            assert_int_equal(check_frames(&f->file, 2), 2);
+        }
+    }
+    assert_true(differences > sizeof(double) * 3); /* the test has seen a change */
+    memcpy(a + counter, b + counter, sizeof(int64_t));
+    assert_memory_equal(a, b, size_a);
+    file_write(&f->file, a, size_a);
+    assert_int_equal(check_frames(&f->file, 3), 3);
+    free(a);
+    free(b);
+}
+
+/* ---- Refusals of the system ------------------------------------------------------------------------------------------------ */
+
+/* Child: no file may grow beyond `times` the size of the first. Creates, then appends until it is refused; leaves with the number of frames appended
+ * that were accepted, or 100 + a number for what went wrong otherwise. */
+static void append_within(fixture *f, rlim_t times)
+{
+    cipc_error error;
+    cipc_trajectory *t;
+    signal(SIGXFSZ, SIG_IGN);
+    if (cipc_trajectory_create(&t, f->file.text, f->run.model, f->run.state, scene, 1, &error) != CIPC_OK) {
+        _exit(100);
+    }
+    struct stat first;
+    stat(f->file.text, &first);
+    const struct rlimit size = {times * (rlim_t)first.st_size, times * (rlim_t)first.st_size};
+    setrlimit(RLIMIT_FSIZE, &size);
+    for (int appended = 0; appended < 64; appended++) {
+        sample_run_advance(&f->run);
+        cipc_status status = cipc_trajectory_append(t, f->run.state, &error);
+        if (status == CIPC_OK) {
+            continue;
+        }
+        if (status != CIPC_E_IO || error.status != CIPC_E_IO) {
+            _exit(101);
+        }
+        cipc_trajectory_close(t, &error); /* may or may not find room for its copy, but must come back */
+        exit(appended);                   /* not _exit(): HDF5's own end must come back too */
+    }
+    _exit(102);
+}
+
+static void test_no_space_is_an_error_that_keeps_the_frames(void **state)
+{
+    fixture *f = *state;
+    enum { ROOM_FOR_SOME = 2 };
+    const pid_t child = fork();
+    assert_true(child >= 0);
+    if (child == 0) {
+        append_within(f, ROOM_FOR_SOME);
+    }
+    int how;
+    assert_int_equal(waitpid(child, &how, 0), child);
+    assert_true(WIFEXITED(how));
+    const int appended = WEXITSTATUS(how);
+    assert_in_range(appended, 1, 63);
+    assert_int_equal(check_frames(&f->file, appended + 1), appended + 1);
+}
+
+static void test_every_allocation_may_fail(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    cipc_trajectory *t = NULL;
+    for (long n = 1;; n++) {
+        fail_allocation(n);
+        cipc_status status = cipc_trajectory_create(&t, f->file.text, f->run.model, f->run.state, scene, 1, &error);
+        const bool failed = allocation_failed();
+        fail_allocation(0);
+        if (!failed) {
+            accept(status, &error);
+            break;
+        }
+        assert_int_not_equal(status, CIPC_OK);
+        assert_null(t);
+        assert_false(file_exists(&f->file));
+    }
+    sample_run_advance(&f->run);
+    fail_allocation(1); /* this append needs a copy, and that a buffer */
+    assert_int_equal(cipc_trajectory_append(t, f->run.state, &error), CIPC_E_OUT_OF_MEMORY);
+    fail_allocation(0);
+    assert_int_equal(check_frames(&f->file, 1), 1);
+    accept(cipc_trajectory_append(t, f->run.state, &error), &error);
+    accept(cipc_trajectory_close(t, &error), &error);
+    assert_int_equal(check_frames(&f->file, 2), 2);
+    for (long n = 1;; n++) {
+        fail_allocation(n);
+        cipc_status status = cipc_trajectory_resume(&t, f->file.text, f->run.model, f->run.state, scene, 1, &error);
+        const bool failed = allocation_failed();
+        fail_allocation(0);
+        if (!failed) {
+            accept(status, &error);
+            break;
+        }
+        assert_int_not_equal(status, CIPC_OK);
+        assert_null(t);
+    }
+    accept(cipc_trajectory_close(t, &error), &error);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_round_trip_with_room_to_spare_and_without, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_closed_file_has_no_empty_frames, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_same_run_gives_the_same_bytes, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_resume_restores_everything, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_resume_with_another_scene_is_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_resume_with_another_model_is_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_damaged_files_are_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_impossible_counter_is_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_missing_files_and_frames, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_file_that_cannot_be_created, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_reading_while_writing, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_killed_run_leaves_whole_frames, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_append_cut_short_anywhere, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_no_space_is_an_error_that_keeps_the_frames, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_every_allocation_may_fail, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
