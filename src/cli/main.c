@@ -1,6 +1,7 @@
 /* cipc: the first word is a command. */
 #include "cli/command.h"
 
+#include <hdf5.h>
 #include <stdio.h>
 #include <string.h>
 #include "scene/nearest_name.h"
@@ -94,6 +95,9 @@ static int dispatch(int argc, char **argv)
 
 int main(int argc, char **argv)
 {
+    /* HDF5 1.10 crashes in its exit handler when a file could not be closed for lack of disk space. Every file is closed, and the result
+     * checked, before the end: there is nothing for the handler to do. */
+    H5dont_atexit();
     int exit_status = dispatch(argc, argv);
     if ((fflush(stdout) != 0 || ferror(stdout)) && exit_status == 0) {
         cipc_error error;

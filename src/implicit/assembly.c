@@ -183,6 +183,10 @@ static void local_hessian(const cipc_stepper *s, const cipc_term_list *list, int
     const int *nodes = cipc_term_nodes(list, i);
     const double *positions = list->blended ? s->blend : s->x;
     for (int k = 0; k < energy->nodes; k++) v3_copy(y + 3 * k, positions + 3 * nodes[k]);
+    if (!s->project) {
+        energy->hessian(y, params, H);
+        return;
+    }
     if (!list->energy && cipc_contact_hessian_projected(((const cipc_contact *)(const void *)(list->params + (size_t)i * list->params_stride))->energy, y, params, H))
         return;
     if (s->options.released && list->energy == s->groups[CIPC_GROUP_HINGE].energy && fabs(cipc_hinge_angle(y)) < flat_angle) {

@@ -17,8 +17,14 @@ static const double largest_penalty = 1e8;
 static const double first_shift = 1e-6;
 enum { SHIFTS = 12 };
 
+/* Below this multiple of the tolerance the exact Hessian is tried first: near the minimum it is positive definite as a whole and converges quadratically,
+ * where the projected one may creep. After a failure it is left alone for some iterations. */
+static const double exact_residual_factor = 100;
+enum { EXACT_PAUSE = 4 };
+
 /* State of one minimisation. */
 typedef struct minimisation {
+    int exact_pause;
     double energy, residual, slope;
     double recent[RMS_WINDOW];
     double previous_gap;
@@ -33,29 +39,61 @@ static void shift_diagonal(cipc_stepper *s, double shift)
     }
 }
 
+static cipc_status try_factorization(cipc_stepper *s, bool *definite, cipc_error *error)
+{
+    double begin = cipc_seconds();
+    cipc_status status = cipc_linear_solver_factorize(s->solver, &s->matrix, s->options.threads, definite, error);
+    s->report->factorizations++;
+    s->report->seconds[CIPC_PHASE_FACTORIZATION] += cipc_seconds() - begin;
+    return status;
+}
+
+static cipc_status assemble(cipc_stepper *s, bool project, cipc_error *error)
+{
+    double begin = cipc_seconds();
+    s->project = project;
+    cipc_status status = cipc_assemble_hessian(s, error);
+    s->report->seconds[CIPC_PHASE_ASSEMBLY] += cipc_seconds() - begin;
+    return status;
+}
+
 /* Factorise; M > 0 and every other term is projected, so this fails by rounding only: then more and more mass is added, which keeps a descent direction. */
 static cipc_status factorize(cipc_stepper *s, cipc_error *error)
 {
-    double begin = cipc_seconds(), shift = first_shift;
+    double shift = first_shift;
     bool definite = false;
     for (int attempt = 0; attempt <= SHIFTS && !definite; attempt++, shift *= 10) {
         if (attempt > 0) shift_diagonal(s, shift);
-        cipc_status status = cipc_linear_solver_factorize(s->solver, &s->matrix, s->options.threads, &definite, error);
+        cipc_status status = try_factorization(s, &definite, error);
         if (status) return status;
-        s->report->factorizations++;
     }
-    s->report->seconds[CIPC_PHASE_FACTORIZATION] += cipc_seconds() - begin;
     return definite ? CIPC_OK : cipc_fail(error, CIPC_E_FACTORIZATION, "newton", "the Newton matrix is not positive definite, even with mass added");
 }
 
-/* p = -H^-1 grad E into s->direction; slope p.grad E. */
-static cipc_status newton_direction(cipc_stepper *s, double *slope, cipc_error *error)
+/* Factor of the exact Hessian if that is worth trying and positive definite, of the projected one otherwise. */
+static cipc_status factor_of_hessian(cipc_stepper *s, minimisation *m, cipc_error *error)
 {
-    double begin = cipc_seconds();
+    bool definite = false;
+    cipc_status status = CIPC_OK;
+    if (!s->options.released && m->exact_pause == 0 && m->iteration > 0 && m->residual < exact_residual_factor * s->options.newton_tolerance) {
+        status = assemble(s, false, error);
+        if (!status) status = try_factorization(s, &definite, error);
+        if (status || definite) return status;
+        m->exact_pause = EXACT_PAUSE;
+    } else if (m->exact_pause > 0) {
+        m->exact_pause--;
+    }
+    status = assemble(s, true, error);
+    return status ? status : factorize(s, error);
+}
+
+/* p = -H^-1 grad E into s->direction; slope p.grad E into m->slope. */
+static cipc_status newton_direction(cipc_stepper *s, minimisation *m, cipc_error *error)
+{
+    double begin = cipc_seconds(), *slope = &m->slope;
     cipc_status status = cipc_potential_gradient(s, error);
-    if (!status) status = cipc_assemble_hessian(s, error);
     s->report->seconds[CIPC_PHASE_ASSEMBLY] += cipc_seconds() - begin;
-    if (!status) status = factorize(s, error);
+    if (!status) status = factor_of_hessian(s, m, error);
     if (status) return status;
     begin = cipc_seconds();
     for (int k = 0; k < s->free_count; k++) v3_scale(s->right + 3 * k, -1, s->gradient + 3 * s->free_nodes[k]);
@@ -170,7 +208,7 @@ cipc_status cipc_newton(cipc_stepper *s, cipc_error *error)
     for (; !status && m.iteration < s->options.newton_iterations; m.iteration++) {
         double alpha = 0;
         bool waiting;
-        status = newton_direction(s, &m.slope, error);
+        status = newton_direction(s, &m, error);
         if (status) return status;
         m.residual = step_length(s);
         s->report->residual = m.residual;

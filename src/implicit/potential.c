@@ -3,8 +3,9 @@
  * Rounding. Each term is evaluated in some tens of operations on numbers no larger than its own intermediate values, so its error is at most
  * C u (|e_k| + sum_i |g_i . (y_i - y_0)| + s_k), u = 2^-53: the first part is the relative error of the result, the second what a relative error of
  * the position differences does, the third the size s_k of terms that cancel inside (tr C - 2 - 2 ln J in a membrane: V (mu + lambda);
- * theta^2 in a hinge: its stiffness). C = 32 covers the longest chain, a line-line distance inside a mollified barrier. The sum over terms is
- * compensated and adds no more than 2u|E|. */
+ * theta^2 in a hinge: its stiffness; the displacements of a friction contact's nodes, which may slide along together). For elements and friction the third
+ * part outweighs the first, which is left out. C = 32 covers the longest chain, a line-line distance inside a mollified barrier. The sum over terms is
+ * compensated and adds no more than 2u|E| (docs/theory/time_step.md, eq. 12). */
 #include "implicit/stepper.h"
 
 #include <float.h>
@@ -145,13 +146,19 @@ cipc_status cipc_potential_value(cipc_stepper *s, const double *x, const cipc_co
     return CIPC_OK;
 }
 
-/* Size of the terms that cancel inside an energy, see the head of the file. */
-static double cancelling_size(int list, const void *params)
+/* Size of the terms that cancel inside an energy at y, see the head of the file. */
+static double cancelling_size(int list, const void *params, const double *y)
 {
     if (list == CIPC_GROUP_HINGE) return ((const cipc_hinge_bending *)params)->stiffness;
     if (list == CIPC_GROUP_NEO_HOOKEAN || list == CIPC_GROUP_STVK) {
         const cipc_membrane *m = params;
         return m->volume * (m->mu + fabs(m->lambda));
+    }
+    if (list == CIPC_LIST_FRICTION) {
+        const cipc_friction *f = params;
+        double slide = f->eps;
+        for (int k = 0; k < 12; k++) slide += fabs(f->weights[k / 3] * (y[k] - f->start[k]));
+        return f->coefficient * slide;
     }
     return 0;
 }
@@ -167,7 +174,8 @@ static void list_gradients(cipc_stepper *s, int which, const cipc_term_list *lis
         const void *params = cipc_term_params(list, i);
         gather(positions, cipc_term_nodes(list, i), energy->nodes, y);
         energy->gradient(y, params, g);
-        double size = cancelling_size(which, params);
+        double size = cancelling_size(which, params, y);
+        if (which == CIPC_LIST_CONTACT) size += energy->value(y, params); /* its logarithm may outgrow its gradient's part */
         for (int k = 0; k < 3 * energy->nodes; k++) size += fabs(g[k] * (y[k] - y[k % 3]));
         s->values[i] = list->scale * size;
         for (int k = 0; k < 3 * energy->nodes; k++) g[k] *= list->scale * list->chain;
@@ -191,10 +199,12 @@ static void node_gradients(cipc_stepper *s, double *gradient)
         cipc_inertia inertia = inertia_of(s, i);
         cipc_inertia_gradient(s->x + 3 * i, &inertia, g);
         v3_axpy(gradient + 3 * i, 1, g);
+        if (has_inertia(s, i)) s->noise += cipc_inertia_value(s->x + 3 * i, &inertia);
         if (is_penalised(s, i)) {
             cipc_dirichlet_penalty penalty = penalty_of(s, i);
             cipc_dirichlet_penalty_gradient(s->x + 3 * i, &penalty, g);
             v3_axpy(gradient + 3 * i, 1, g);
+            s->noise += cipc_dirichlet_penalty_value(s->x + 3 * i, &penalty);
         }
         if (s->is_dirichlet[i]) memset(gradient + 3 * i, 0, 3 * sizeof(double));
     }

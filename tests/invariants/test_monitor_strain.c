@@ -96,6 +96,33 @@ static void test_around_the_limit(void **state)
                 SAMPLES / 8); /* ... and many did not (equal stretches are the filter's worst case: det M is quadratic in the distance) */
 }
 
+/* Stretched in one direction only, oblique to the edges, to within a few ulp of the limit: det M in doubles is noise, of either sign. */
+static void test_one_stretch_at_the_limit(void **state)
+{
+    (void)state;
+    uint64_t seed = 93;
+    long rejected = 0;
+    enum { SAMPLES = 2000 };
+    for (int i = 0; i < SAMPLES; i++) {
+        double limit = limits[i % 4], scale = limit * (1 + random_uniform(&seed, -4, 4) * DBL_EPSILON);
+        hand_model *h = unit_triangle(limit);
+        double c = random_uniform(&seed, -1, 1), s = sqrt(1 - c * c);
+        for (int k = 0; k < 3; k++) {
+            double *r = &h->model.rest[3 * k], *x = &h->x[3 * k];
+            r[0] = random_uniform(&seed, -1, 1);
+            r[1] = random_uniform(&seed, -1, 1);
+            double along = c * r[0] + s * r[1];
+            x[0] = r[0] + (scale - 1) * along * c;
+            x[1] = r[1] + (scale - 1) * along * s;
+        }
+        bool below = cipc_exact_compare_stretch(h->model.rest, h->x, limit) > 0;
+        assert_int_equal(look(h).status, below ? CIPC_OK : CIPC_E_VIOLATED_STRAIN);
+        rejected += below ? 0 : 1;
+        hand_model_destroy(h);
+    }
+    assert_true(rejected > SAMPLES / 4 && rejected < 3 * SAMPLES / 4);
+}
+
 static void test_report(void **state)
 {
     (void)state;
@@ -222,16 +249,10 @@ static void test_message(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_ulp_from_the_limit),
-        cmocka_unit_test(test_shear),
-        cmocka_unit_test(test_around_the_limit),
-        cmocka_unit_test(test_report),
-        cmocka_unit_test(test_report_of_nothing),
-        cmocka_unit_test(test_large_common_translation),
-        cmocka_unit_test(test_degenerate),
-        cmocka_unit_test(test_extreme_scales),
-        cmocka_unit_test(test_many_triangles),
-        cmocka_unit_test(test_message),
+        cmocka_unit_test(test_one_ulp_from_the_limit),   cmocka_unit_test(test_shear),      cmocka_unit_test(test_around_the_limit),
+        cmocka_unit_test(test_one_stretch_at_the_limit), cmocka_unit_test(test_report),     cmocka_unit_test(test_report_of_nothing),
+        cmocka_unit_test(test_large_common_translation), cmocka_unit_test(test_degenerate), cmocka_unit_test(test_extreme_scales),
+        cmocka_unit_test(test_many_triangles),           cmocka_unit_test(test_message),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -33,10 +33,12 @@ static void test_both_stretches_at_the_limit(void **state)
 {
     (void)state;
     const double s = 1.0625; /* M = 0: semi-definite */
-    const double x[9] = {1024, 7, -3, 1024 + s, 7, -3, 1024, 7 + s, -3}, longer[9] = {0, 0, 0, s, 0, 0, 0, s + 1, 0};
+    const double x[9] = {1024, 7, -3, 1024 + s, 7, -3, 1024, 7 + s, -3}, longer[9] = {0, 0, 0, s, 0, 0, 0, s + 1, 0},
+                 wider[9] = {0, 0, 0, s + 1, 0, 0, 0, s, 0};
     assert_int_equal(cipc_exact_compare_stretch(unit_triangle, x, s), 0);
     assert_int_equal(cipc_exact_compare_stretch(unit_triangle, x, nextafter(s, 2)), 1);
     assert_int_equal(cipc_exact_compare_stretch(unit_triangle, longer, s), -1); /* one at, one beyond */
+    assert_int_equal(cipc_exact_compare_stretch(unit_triangle, wider, s), -1);
 }
 
 /* Simple shear by g stretches by (g + sqrt(g^2 + 4)) / 2: g = 3/2 gives 2. */

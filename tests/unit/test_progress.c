@@ -1,0 +1,81 @@
+/* The progress line: one line, rewritten in place, readable whatever the numbers. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cipc/output.h"
+
+typedef struct line { char text[512]; } line;
+
+static line shown(double min_gap, double max_stretch, double seconds_left)
+{
+    line l = {{0}};
+    FILE *terminal = tmpfile();
+    assert_non_null(terminal);
+    cipc_progress_line(terminal, 3, 100, 0.03, 12, 345, min_gap, max_stretch, seconds_left);
+    rewind(terminal);
+    assert_in_range(fread(l.text, 1, sizeof l.text - 1, terminal), 1, sizeof l.text - 1);
+    fclose(terminal);
+    assert_int_equal(l.text[0], '\r');
+    assert_null(strchr(l.text, '\n'));
+    return l;
+}
+
+static void assert_shows(const line *l, const char *part)
+{
+    if (strstr(l->text, part) == NULL) {
+        fail_msg("no '%s' in '%s'", part, l->text);
+    }
+}
+
+static void test_ordinary_numbers(void **state)
+{
+    (void)state;
+    const line l = shown(1.25e-4, 1.0456, 65);
+    static const char *const parts[] = {"step 3/100", "t 0.03 s", "newton 12", "contacts 345", "gap 1.25e-04 m", "stretch 1.0456", "left 1:05"};
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
+        assert_shows(&l, parts[i]);
+    }
+}
+
+static void test_odd_numbers(void **state)
+{
+    (void)state;
+    line l = shown(INFINITY, 1, 3725.6);
+    assert_shows(&l, "gap -");
+    assert_shows(&l, "left 1:02:06");
+    l = shown(1e-3, NAN, NAN);
+    assert_shows(&l, "left -");
+    l = shown(1e-3, 1, INFINITY);
+    assert_shows(&l, "left -");
+    l = shown(1e-3, 1, -1);
+    assert_shows(&l, "left -");
+}
+
+static void test_clear(void **state)
+{
+    (void)state;
+    char text[16] = {0};
+    FILE *terminal = tmpfile();
+    cipc_progress_clear(terminal);
+    rewind(terminal);
+    assert_int_equal(fread(text, 1, sizeof text - 1, terminal), 4);
+    assert_string_equal(text, "\r\033[K");
+    fclose(terminal);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_ordinary_numbers),
+        cmocka_unit_test(test_odd_numbers),
+        cmocka_unit_test(test_clear),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

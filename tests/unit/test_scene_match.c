@@ -1,0 +1,87 @@
+/* Which scenes may go on from one another's trajectories. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include "output/scene_match.h"
+
+static const char base[] = "{\"time_step\": 0.01, \"steps\": 3, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}";
+
+static void assert_matches(const char *other)
+{
+    char path[64];
+    assert_true(cipc_scene_match(base, other, path, sizeof path));
+}
+
+static void assert_differs(const char *other, const char *where)
+{
+    char path[64];
+    assert_false(cipc_scene_match(base, other, path, sizeof path));
+    assert_string_equal(path, where);
+    assert_false(cipc_scene_match(other, base, path, sizeof path)); /* whichever is the older */
+    assert_string_equal(path, where);
+}
+
+static void test_order_and_layout_do_not_matter(void **state)
+{
+    (void)state;
+    assert_matches(base);
+    assert_matches("{\"bodies\":[{\"name\":\"a\"},{\"name\":\"b\"}],\"newton\":{\"tolerance\":0.001},\"steps\":3,\"time_step\":1e-2}");
+}
+
+static void test_members_that_change_no_frame(void **state)
+{
+    (void)state;
+    assert_matches("{\"time_step\": 0.01, \"steps\": 30, \"title\": \"t\", \"size\": \"ci\", \"sizes\": {}, \"monitor\": {\"enabled\": false}, "
+                   "\"output\": {\"obj\": true}, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}");
+}
+
+static void test_first_difference_is_named(void **state)
+{
+    (void)state;
+    assert_differs("{\"time_step\": 0.02, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}", "time_step");
+    assert_differs("{\"time_step\": 0.01, \"newton\": {\"tolerance\": 1e-4}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}",
+                   "newton.tolerance");
+    assert_differs("{\"time_step\": 0.01, \"newton\": {}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}", "newton.tolerance");
+    assert_differs("{\"time_step\": 0.01, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"c\"}]}", "bodies.1.name");
+    assert_differs("{\"time_step\": 0.01, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}]}", "bodies.1");
+    assert_differs("{\"time_step\": 0.01, \"newton\": 3, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}", "newton");
+    assert_differs("[]", "");
+}
+
+static void test_steps_count_below_the_root(void **state)
+{
+    (void)state;
+    char path[64];
+    assert_false(cipc_scene_match("{\"a\": {\"steps\": 1}}", "{\"a\": {\"steps\": 2}}", path, sizeof path));
+    assert_string_equal(path, "a.steps");
+}
+
+static void test_text_that_is_not_json(void **state)
+{
+    (void)state;
+    char path[64];
+    assert_true(cipc_scene_match("plain", "plain", path, sizeof path));
+    assert_false(cipc_scene_match("plain", "{}", path, sizeof path));
+    assert_false(cipc_scene_match(base, "{", path, sizeof path));
+}
+
+static void test_long_path_is_cut(void **state)
+{
+    (void)state;
+    char path[8];
+    assert_false(cipc_scene_match("{\"newton\": {\"tolerance\": 1}}", "{\"newton\": {\"tolerance\": 2}}", path, sizeof path));
+    assert_string_equal(path, "newton.");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_order_and_layout_do_not_matter), cmocka_unit_test(test_members_that_change_no_frame),
+        cmocka_unit_test(test_first_difference_is_named),      cmocka_unit_test(test_steps_count_below_the_root),
+        cmocka_unit_test(test_text_that_is_not_json),          cmocka_unit_test(test_long_path_is_cut),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

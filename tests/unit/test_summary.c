@@ -1,0 +1,229 @@
+/* summary.json: fields, and the verdicts that a run may claim. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <jansson.h>
+#include <math.h>
+#include <string.h>
+
+#include "cipc/output.h"
+#include "support/sample_run.h"
+
+static cipc_run_summary good_run(void)
+{
+    cipc_run_summary s = cipc_run_summary_default();
+    s.scene_path = "scenes/drape.json";
+    s.scene_name = "drape";
+    s.scene_size = "ci";
+    s.command = "cipc run scenes/drape.json";
+    s.steps_asked = s.steps_taken = 4;
+    s.time = 0.04;
+    s.points_checked = 10;
+    s.energy_checks = 9;
+    s.limited_triangles = 100;
+    s.min_gap = 1e-5;
+    s.max_stretch = 1.05;
+    s.seconds = 8;
+    s.seconds_by_phase[CIPC_PHASE_MONITOR] = 2;
+    s.seed = 7;
+    s.threads = 2;
+    s.peak_memory_kb = 4096;
+    return s;
+}
+
+static void assert_verdicts(const cipc_run_summary *s, const char *expected)
+{
+    char text[9] = {0};
+    for (int i = 1; i <= 8; i++) {
+        const char *verdict = cipc_run_summary_verdict(s, i);
+        text[i - 1] = strcmp(verdict, "holds") == 0 ? 'h' : strcmp(verdict, "violated") == 0 ? 'v' : strcmp(verdict, "not checked") == 0 ? '-' : '?';
+    }
+    assert_string_equal(text, expected);
+}
+
+static void test_verdicts_of_good_runs(void **state)
+{
+    (void)state;
+    cipc_run_summary s = good_run();
+    assert_verdicts(&s, "hhh--h-h"); /* M5 and M7 have no monitor; no tetrahedra for M4 */
+    s.tetrahedra = 1;
+    assert_verdicts(&s, "hhhh-h-h");
+    s.limited_triangles = 0;
+    assert_verdicts(&s, "hh-h-h-h");
+    s.energy_checks = 0;
+    assert_verdicts(&s, "hh-h---h");
+    s.points_checked = 0;
+    assert_verdicts(&s, "--------");
+    s = good_run();
+    s.monitored = false; /* one step without is enough */
+    assert_verdicts(&s, "--------");
+    s = good_run();
+    s.status = CIPC_E_NOT_CONVERGED; /* what was seen was seen */
+    assert_verdicts(&s, "hhh--h-h");
+}
+
+static void test_verdicts_of_violations(void **state)
+{
+    (void)state;
+    cipc_run_summary s = good_run();
+    s.tetrahedra = 1;
+    const struct { cipc_status status; const char *verdicts; } cases[] = {
+        {CIPC_E_VIOLATED_INTERSECTION, "vhhh-h-h"}, {CIPC_E_VIOLATED_GAP, "hvhh-h-h"},    {CIPC_E_VIOLATED_STRAIN, "hhvh-h-h"},
+        {CIPC_E_VIOLATED_INVERSION, "hhhv-h-h"},    {CIPC_E_VIOLATED_ENERGY, "hhhh-v-h"}, {CIPC_E_VIOLATED_FINITE, "hhhh-h-v"},
+        {CIPC_E_INDETERMINATE, "-----h-h"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        s.status = cases[i].status;
+        assert_verdicts(&s, cases[i].verdicts);
+    }
+    /* At the only point there was, monitors behind the violated one have not looked. */
+    s.points_checked = s.energy_checks = 1;
+    s.status = CIPC_E_VIOLATED_GAP;
+    assert_verdicts(&s, "hv---h-h");
+    s.status = CIPC_E_VIOLATED_ENERGY;
+    assert_verdicts(&s, "-----v--");
+    assert_string_equal(cipc_run_summary_verdict(&s, 0), "not checked");
+    assert_string_equal(cipc_run_summary_verdict(&s, 9), "not checked");
+}
+
+static json_t *written(const cipc_run_summary *s)
+{
+    cipc_error error;
+    const path folder = folder_make(), file = path_in(&folder, "summary.json");
+    assert_int_equal(cipc_summary_write(file.text, s, &error), CIPC_OK);
+    json_t *object = json_load_file(file.text, JSON_REJECT_DUPLICATES, NULL);
+    assert_non_null(object);
+    folder_remove(&folder);
+    return object;
+}
+
+/* A dotted path into an object. */
+static json_t *at(json_t *object, const char *where)
+{
+    char text[128];
+    strcpy(text, where);
+    char *rest = text;
+    for (char *key = strtok_r(text, ".", &rest); key != NULL; key = strtok_r(NULL, ".", &rest)) {
+        object = json_object_get(object, key);
+    }
+    if (object == NULL) {
+        fail_msg("no %s", where);
+    }
+    return object;
+}
+
+static void test_fields(void **state)
+{
+    (void)state;
+    const cipc_run_summary s = good_run();
+    json_t *o = written(&s);
+    static const char *const integers[] = {"exit_status", "seed", "threads", "steps_asked", "steps_taken", "monitors.points_checked",
+                                           "monitors.energy_checks", "monitors.exact_gap_checks", "monitors.exact_strain_checks",
+                                           "extremes.max_contacts", "extremes.max_newton_iterations", "totals.newton_iterations",
+                                           "totals.line_search_halvings", "totals.friction_passes", "totals.symbolic_analyses",
+                                           "totals.factorizations", "peak_memory_kb"};
+    for (size_t i = 0; i < sizeof integers / sizeof integers[0]; i++) {
+        assert_true(json_is_integer(at(o, integers[i])));
+    }
+    static const char *const reals[] = {"time", "monitors.seconds", "monitors.percent", "extremes.min_gap", "extremes.max_stretch",
+                                        "extremes.max_stretch_ratio", "seconds.total", "seconds.output"};
+    for (size_t i = 0; i < sizeof reals / sizeof reals[0]; i++) {
+        assert_true(json_is_real(at(o, reals[i])));
+    }
+    for (int i = 0; i < CIPC_PHASE_COUNT; i++) {
+        assert_true(json_is_real(json_object_get(at(o, "seconds"), cipc_phase_name((cipc_phase)i))));
+    }
+    assert_string_equal(json_string_value(at(o, "status")), "OK");
+    assert_true(json_is_null(at(o, "error")) && json_is_null(at(o, "resumed_from")) && json_is_true(at(o, "converged")));
+    assert_string_equal(json_string_value(at(o, "scene.name")), "drape");
+    assert_string_equal(json_string_value(at(o, "scene.file")), "scenes/drape.json");
+    assert_string_equal(json_string_value(at(o, "scene.size")), "ci");
+    assert_string_equal(json_string_value(at(o, "invariants.M2")), "holds");
+    assert_int_equal(json_object_size(at(o, "invariants")), 8);
+    assert_true(json_real_value(at(o, "monitors.percent")) == 25);
+    assert_true(json_integer_value(at(o, "seed")) == 7);
+    assert_string_equal(json_string_value(at(o, "versions.cipc")), cipc_version());
+    json_decref(o);
+}
+
+static void test_failed_run(void **state)
+{
+    (void)state;
+    cipc_run_summary s = good_run();
+    cipc_error error;
+    s.status = cipc_fail(&error, CIPC_E_VIOLATED_GAP, "step 3", "too near: \"%s\"", "a\\b");
+    s.error = &error;
+    s.resumed_from = 2;
+    s.min_gap = INFINITY;
+    json_t *o = written(&s);
+    assert_string_equal(json_string_value(at(o, "status")), "VIOLATED_GAP");
+    assert_int_equal(json_integer_value(at(o, "exit_status")), 3);
+    assert_int_equal(json_integer_value(at(o, "error.number")), 3002);
+    assert_string_equal(json_string_value(at(o, "error.where")), "step 3");
+    assert_string_equal(json_string_value(at(o, "error.what")), "too near: \"a\\b\"");
+    assert_string_equal(json_string_value(at(o, "error.remedy")), error.remedy);
+    assert_string_equal(json_string_value(at(o, "invariants.M2")), "violated");
+    assert_string_equal(json_string_value(at(o, "extremes.min_gap")), "inf");
+    assert_int_equal(json_integer_value(at(o, "resumed_from")), 2);
+    json_decref(o);
+}
+
+static void test_interrupted_and_unmonitored_run(void **state)
+{
+    (void)state;
+    cipc_run_summary s = good_run();
+    s.interrupted = true;
+    s.monitored = false;
+    s.scene_path = "\xff\xfe.json"; /* a file name need not be UTF-8 */
+    json_t *o = written(&s);
+    assert_string_equal(json_string_value(at(o, "status")), "INTERRUPTED");
+    assert_int_equal(json_integer_value(at(o, "exit_status")), 1);
+    assert_true(json_is_null(at(o, "extremes.min_gap")) && json_is_null(at(o, "extremes.max_stretch")));
+    assert_true(json_is_null(at(o, "scene.file")));
+    json_decref(o);
+}
+
+static void test_adding_steps(void **state)
+{
+    (void)state;
+    cipc_run_summary s = cipc_run_summary_default();
+    assert_true(isinf(s.min_gap) && s.resumed_from == -1 && s.converged && s.monitored);
+    cipc_step_invariants v = cipc_step_invariants_none();
+    const cipc_invariant_report seen = {.min_gap = 1e-4, .max_stretch = 1.01, .exact_gap_checks = 3};
+    cipc_step_invariants_add(&v, &seen);
+    cipc_step_report r = {.converged = true, .newton_iterations = 5, .max_contacts = 9, .factorizations = 5};
+    r.seconds[CIPC_PHASE_CCD] = 0.5;
+    cipc_run_summary_add(&s, &r, &v);
+    r.converged = false;
+    r.max_contacts = 2;
+    cipc_run_summary_add(&s, &r, NULL);
+    assert_int_equal(s.newton_iterations, 10);
+    assert_int_equal(s.max_newton_iterations, 5);
+    assert_int_equal(s.max_contacts, 9);
+    assert_int_equal(s.points_checked, 1);
+    assert_true(s.min_gap == 1e-4 && s.seconds_by_phase[CIPC_PHASE_CCD] == 1 && s.exact_gap_checks == 3);
+    assert_false(s.converged);
+    assert_false(s.monitored);
+}
+
+static void test_unwritable(void **state)
+{
+    (void)state;
+    cipc_error error;
+    const cipc_run_summary s = good_run();
+    assert_int_equal(cipc_summary_write("/no/such/folder/summary.json", &s, &error), CIPC_E_IO);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_verdicts_of_good_runs), cmocka_unit_test(test_verdicts_of_violations),
+        cmocka_unit_test(test_fields),                cmocka_unit_test(test_failed_run),
+        cmocka_unit_test(test_interrupted_and_unmonitored_run), cmocka_unit_test(test_adding_steps),
+        cmocka_unit_test(test_unwritable),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

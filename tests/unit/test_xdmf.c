@@ -1,0 +1,138 @@
+/* XDMF: well-formed, and every reference leads to a dataset of the trajectory with the extents it claims. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <hdf5.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cipc/output.h"
+#include "support/sample_run.h"
+
+/* Tags open and close in order; attribute values are quoted; no stray '<' or '&'. Enough of a parser for what we write. */
+static void assert_well_formed(const char *text)
+{
+    char stack[16][32];
+    int depth = 0;
+    for (const char *c = strchr(text, '<'); c != NULL; c = strchr(c + 1, '<')) {
+        char name[32];
+        const char *end = strchr(c, '>');
+        assert_non_null(end);
+        if (c[1] == '?') {
+            continue;
+        }
+        assert_int_equal(sscanf(c[1] == '/' ? c + 2 : c + 1, "%31[A-Za-z]", name), 1);
+        if (c[1] == '/') {
+            assert_true(depth > 0);
+            assert_string_equal(stack[--depth], name);
+        } else if (end[-1] != '/') {
+            assert_true(depth < 16);
+            strcpy(stack[depth++], name);
+        }
+    }
+    assert_int_equal(depth, 0);
+    for (const char *c = strchr(text, '&'); c != NULL; c = strchr(c + 1, '&')) {
+        assert_true(strncmp(c, "&amp;", 5) == 0 || strncmp(c, "&lt;", 4) == 0 || strncmp(c, "&gt;", 4) == 0 || strncmp(c, "&quot;", 6) == 0 ||
+                    strncmp(c, "&apos;", 6) == 0);
+    }
+}
+
+static int count(const char *text, const char *word)
+{
+    int found = 0;
+    for (const char *c = strstr(text, word); c != NULL; c = strstr(c + 1, word)) {
+        found++;
+    }
+    return found;
+}
+
+/* Each <DataItem Format="HDF" ... Dimensions="a b c">t.h5:/path</DataItem>. Returns how many. */
+static int check_references(const char *text, const path *h5)
+{
+    hid_t file = H5Fopen(h5->text, H5F_ACC_RDONLY, H5P_DEFAULT);
+    int references = 0;
+    for (const char *c = strstr(text, "Format=\"HDF\""); c != NULL; c = strstr(c + 1, "Format=\"HDF\"")) {
+        int claimed[3] = {0, 0, 0};
+        char dataset[64];
+        const char *dimensions = strstr(c, "Dimensions=\""), *content = strchr(c, '>');
+        const int rank = sscanf(dimensions, "Dimensions=\"%d %d %d", &claimed[0], &claimed[1], &claimed[2]);
+        assert_int_equal(sscanf(content, ">t.h5:%63[^<]", dataset), 1);
+        hid_t data = H5Dopen(file, dataset, H5P_DEFAULT), space = H5Dget_space(data);
+        hsize_t dims[3] = {0, 0, 0};
+        assert_int_equal(H5Sget_simple_extent_dims(space, dims, NULL), rank);
+        for (int i = 0; i < rank; i++) {
+            assert_int_equal(dims[i], claimed[i]);
+        }
+        H5Sclose(space);
+        H5Dclose(data);
+        references++;
+    }
+    H5Fclose(file);
+    return references;
+}
+
+static void test_every_reference_is_good(void **state)
+{
+    (void)state;
+    enum { FRAMES = 3 };
+    cipc_error error;
+    const path folder = folder_make(), h5 = path_in(&folder, "t.h5"), xdmf = path_in(&folder, "t.xdmf");
+    sample_run run = sample_run_create();
+    cipc_trajectory *t;
+    double times[FRAMES];
+    assert_int_equal(cipc_trajectory_create(&t, h5.text, run.model, run.state, "{}", FRAMES, &error), CIPC_OK);
+    for (int i = 1; i < FRAMES; i++) {
+        sample_run_advance(&run);
+        assert_int_equal(cipc_trajectory_append(t, run.state, &error), CIPC_OK);
+    }
+    assert_int_equal(cipc_trajectory_close(t, &error), CIPC_OK);
+    assert_int_equal(cipc_trajectory_times(h5.text, times, FRAMES, &error), CIPC_OK);
+    assert_int_equal(cipc_xdmf_write(xdmf.text, "t.h5", run.model, FRAMES, times, &error), CIPC_OK);
+
+    char *text = file_read(&xdmf, NULL);
+    assert_well_formed(text);
+    assert_int_equal(count(text, "<Time "), FRAMES);
+    assert_int_equal(check_references(text, &h5), 4 * FRAMES); /* triangles, positions, velocities, bodies */
+    char last[64];
+    snprintf(last, sizeof last, "<Time Value=\"%.17g\"/>", times[FRAMES - 1]);
+    assert_non_null(strstr(text, last));
+    assert_non_null(strstr(text, ">2 0 0  1 1 1  1 13 3<")); /* the slab of frame 2: start, stride, count */
+    free(text);
+    sample_run_destroy(&run);
+    folder_remove(&folder);
+}
+
+static void test_awkward_names_and_no_frames(void **state)
+{
+    (void)state;
+    cipc_error error;
+    const double time = 0;
+    const path folder = folder_make(), xdmf = path_in(&folder, "t.xdmf");
+    sample_run run = sample_run_create();
+    assert_int_equal(cipc_xdmf_write(xdmf.text, "a<b>&\"c'\n.h5", run.model, 1, &time, &error), CIPC_OK);
+    char *text = file_read(&xdmf, NULL);
+    assert_well_formed(text);
+    assert_non_null(strstr(text, "a&lt;b&gt;&amp;&quot;c&apos; .h5:/positions"));
+    free(text);
+    assert_int_equal(cipc_xdmf_write(xdmf.text, "t.h5", run.model, 0, NULL, &error), CIPC_OK);
+    text = file_read(&xdmf, NULL);
+    assert_well_formed(text);
+    free(text);
+    assert_int_equal(cipc_xdmf_write("/no/such/folder/t.xdmf", "t.h5", run.model, 0, NULL, &error), CIPC_E_IO);
+    sample_run_destroy(&run);
+    folder_remove(&folder);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_every_reference_is_good),
+        cmocka_unit_test(test_awkward_names_and_no_frames),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
