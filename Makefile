@@ -27,7 +27,7 @@ PACKAGES := $(shell pkg-config --exists hdf5-serial 2>/dev/null && echo hdf5-ser
 # The libraries' headers are system headers: their warnings are not ours to mend.
 PACKAGE_CFLAGS := $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(PACKAGES) 2>/dev/null)) -isystem /usr/include/suitesparse
 # GSL takes its CBLAS from BLAS, so that one BLAS serves GSL, LAPACK and CHOLMOD alike.
-PACKAGE_LIBS := $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) -lgsl -lcholmod -llapacke -llapack -lblas -lm
+PACKAGE_LIBS := $(shell pkg-config --libs $(PACKAGES) 2>/dev/null) -lgsl -lcholmod -lsuitesparseconfig -llapacke -llapack -lblas -lm
 
 ALL_CFLAGS  = -std=c17 -D_DEFAULT_SOURCE $(OPTIMIZE) $(WARNINGS) -ffp-contract=off -fno-math-errno -fno-semantic-interposition \
               -fPIC -fopenmp $(if $(ARCH),-march=$(ARCH)) -Iinclude -Isrc $(PACKAGE_CFLAGS) $(CFLAGS)

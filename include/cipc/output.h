@@ -35,7 +35,7 @@ int cipc_trajectory_frames(const cipc_trajectory *trajectory);
 cipc_status cipc_trajectory_close(cipc_trajectory *trajectory, cipc_error *error);
 
 /* Number of whole frames of a file; the positions (3 * node_count, caller's array) and time of one; all times (caller's array of
- * frame_count). Any argument after node_count may be NULL but the path. Errors: CIPC_E_MISSING_FILE, CIPC_E_IO (damaged, or no such frame). */
+ * frame_count). position, time and error may be NULL. Errors: CIPC_E_MISSING_FILE, CIPC_E_IO (damaged, or no such frame). */
 cipc_status cipc_trajectory_count(const char *path, int *frames, cipc_error *error);
 cipc_status cipc_trajectory_read(const char *path, int frame, double *position, int node_count, double *time, cipc_error *error);
 cipc_status cipc_trajectory_times(const char *path, double *times, int frame_count, cipc_error *error);
@@ -49,9 +49,9 @@ cipc_status cipc_xdmf_write(const char *path, const char *h5_name, const cipc_mo
 /* Wavefront OBJ of a state, 17 significant digits, one group per body; written atomically. */
 cipc_status cipc_obj_write(const char *path, const cipc_model *model, const double *position, cipc_error *error);
 
-/* violation.json: which invariant broke where, with everything the monitors reported of the point. report may be NULL. Written atomically. */
-cipc_status cipc_violation_write(const char *path, const cipc_accepted_point *point, double time_before, const cipc_invariant_report *report,
-                                 const cipc_error *violation, cipc_error *error);
+/* violation.json: which invariant broke where, and what the monitors reported of the point (report may be NULL). Written atomically. */
+cipc_status cipc_violation_write(const char *path, const cipc_accepted_point *point, double time_before,
+                                 const cipc_invariant_report *report, const cipc_error *violation, cipc_error *error);
 
 /* Any text, written atomically (temporary name, rename). */
 cipc_status cipc_text_write(const char *path, const char *text, cipc_error *error);
@@ -111,8 +111,8 @@ const char *cipc_run_summary_verdict(const cipc_run_summary *summary, int invari
 /* summary.json, written atomically. */
 cipc_status cipc_summary_write(const char *path, const cipc_run_summary *summary, cipc_error *error);
 
-/* Cut stats.jsonl after the line of `step` (atomically) and add what the lines kept say to *summary, so that the summary of a resumed run is
- * that of the whole run. CIPC_E_NOT_RESUMABLE if a line is missing; a broken last line is one beyond the cut. */
+/* Cut stats.jsonl after the line of `step` (atomically) and add what the lines kept say to *summary, so that the summary of a resumed run
+ * is that of the whole run. CIPC_E_NOT_RESUMABLE if a line is missing; a broken last line is one beyond the cut. */
 cipc_status cipc_stats_resume(const char *path, int step, cipc_run_summary *summary, cipc_error *error);
 
 /* Progress line on a terminal: step, simulated time, Newton iterations, contacts, minimum gap, largest stretch, time left. */
@@ -133,7 +133,8 @@ cipc_picture_options cipc_picture_options_default(void);
 cipc_status cipc_frames_png(const char *path, const char *trajectory_path, const cipc_model *model, const cipc_picture_options *options,
                             cipc_error *error);
 
-/* Four plots over time from stats.jsonl: gap minus thickness (log), largest stretch against its limit (0: none), energies, Newton iterations. */
+/* Four plots over time from stats.jsonl: gap minus thickness (log), largest stretch against its limit (0: none), energies, Newton
+ * iterations. */
 cipc_status cipc_plots_png(const char *path, const char *stats_path, double strain_limit, double dhat, cipc_error *error);
 
 #endif

@@ -92,7 +92,8 @@ static cipc_status write_pictures(cipc_simulation *s, const paths *p, cipc_error
     cipc_error found;
     cipc_status status = CIPC_OK;
     note(cipc_frames_png(p->frames, p->trajectory, scene->model, &options, &found), &found, &status, error);
-    note(cipc_plots_png(p->plots, p->stats, smallest_strain_limit(scene->model), scene->options.contact.dhat, &found), &found, &status, error);
+    note(cipc_plots_png(p->plots, p->stats, smallest_strain_limit(scene->model), scene->options.contact.dhat, &found), &found, &status,
+         error);
     return status;
 }
 

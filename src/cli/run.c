@@ -53,7 +53,8 @@ static cipc_status take(void *input, int key, char *value, cipc_error *error)
 static const struct argp_option options[] = {
     {"output", 'o', "DIR", 0, "The folder to write to (default: out/SCENE); it is made when it does not exist", 0},
     {"steps", KEY_STEPS, "N", 0, "Take N time steps instead of as many as the scene says", 0},
-    {"set", KEY_SET, "PATH=VALUE", 0, "Override a key of the scene, as in --set bodies.cloth.strain_limit.limit=1.01; --set size=desk applies a block of \"sizes\"", 0},
+    {"set", KEY_SET, "PATH=VALUE", 0,
+     "Override a key of the scene, as in --set bodies.cloth.strain_limit.limit=1.01; --set size=desk applies a block of \"sizes\"", 0},
     {"threads", KEY_THREADS, "N", 0, "Number of threads; results do not depend on it", 0},
     {"resume", KEY_RESUME, NULL, 0, "Go on after the last whole frame in the folder", 0},
     {"no-monitor", KEY_NO_MONITOR, NULL, 0, "Do not check the invariants: the run then proves nothing", 0},
@@ -62,9 +63,13 @@ static const struct argp_option options[] = {
     {0},
 };
 static const cipc_arguments arguments = {
-    "cipc run", options, "SCENE.json",
-    "Simulate a scene and write what happened to a folder: trajectory.h5 and .xdmf, stats.jsonl, summary.json, scene.json, frames.png, plots.png."
-    "\vExit status: 0 every step converged and every invariant held; 1 the computation failed; 2 bad usage or bad input; 3 an invariant broke.",
+    "cipc run",
+    options,
+    "SCENE.json",
+    "Simulate a scene and write what happened to a folder: trajectory.h5 and .xdmf, stats.jsonl, summary.json, scene.json, frames.png, "
+    "plots.png."
+    "\vExit status: 0 every step converged and every invariant held; 1 the computation failed; 2 bad usage or bad input; 3 an invariant "
+    "broke.",
     take,
 };
 

@@ -33,7 +33,8 @@ static int print_json(const cipc_scene_entry *entries, int count)
     json_t *list = json_array();
     for (int i = 0; i < count; i++) {
         const cipc_scene_entry *e = &entries[i];
-        json_array_append_new(list, json_pack("{s:s, s:s, s:s, s:s}", "name", e->name, "title", e->title, "source", e->source, "file", e->file));
+        json_array_append_new(list,
+                              json_pack("{s:s, s:s, s:s, s:s}", "name", e->name, "title", e->title, "source", e->source, "file", e->file));
     }
     int exit_status = 0;
     if (json_array_size(list) != (size_t)count) {
@@ -51,7 +52,8 @@ static int print_json(const cipc_scene_entry *entries, int count)
 int cipc_command_scenes(int argc, char **argv)
 {
     static const struct argp_option options[] = {{"json", 'j', NULL, 0, "As JSON", 0}, {0}};
-    static const cipc_arguments arguments = {"cipc scenes", options, NULL, "List the scenes of the catalogue: name, title, source and file.", take};
+    static const cipc_arguments arguments = {"cipc scenes", options, NULL,
+                                             "List the scenes of the catalogue: name, title, source and file.", take};
     cipc_error error;
     bool as_json = false, answered = false;
     if (cipc_parse_arguments(&arguments, argc, argv, &as_json, &answered, &error) != CIPC_OK) {

@@ -88,7 +88,8 @@ static cipc_status check_start(cipc_simulation *s, cipc_error *error)
 /* Results of an earlier run in the folder, once the new trajectory has taken the old one's place. */
 static void remove_stale(const cipc_simulation *s)
 {
-    static const char *const names[] = {"summary.json", "trajectory.xdmf", "frames.png", "plots.png", "violation.obj", "violation.json", "failed.obj"};
+    static const char *const names[] = {"summary.json",  "trajectory.xdmf", "frames.png", "plots.png",
+                                        "violation.obj", "violation.json",  "failed.obj"};
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         char *path = cipc_path_in(s->request->directory, names[i]);
         if (path != NULL) {
@@ -141,7 +142,8 @@ static cipc_status open_trajectory(cipc_simulation *s, const char *path, cipc_er
 }
 
 /* A fresh run touches nothing in the folder before its own trajectory has taken the old one's place. */
-static cipc_status open_files(cipc_simulation *s, const char *trajectory, const char *stats, const char *scene, const char *obj, cipc_error *error)
+static cipc_status open_files(cipc_simulation *s, const char *trajectory, const char *stats, const char *scene, const char *obj,
+                              cipc_error *error)
 {
     cipc_status status = s->request->resume ? CIPC_OK : make_directory(s->request->directory, error);
     if (status == CIPC_OK) {
@@ -157,6 +159,9 @@ static cipc_status open_files(cipc_simulation *s, const char *trajectory, const 
     }
     if (status == CIPC_OK && s->request->write_obj) {
         status = make_directory(obj, error);
+    }
+    if (status == CIPC_OK && s->request->write_obj && !s->request->resume) {
+        status = cipc_simulation_frame_obj(s, error);
     }
     return status;
 }

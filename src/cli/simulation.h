@@ -44,6 +44,9 @@ cipc_status cipc_simulation_steps(cipc_simulation *s);
 /* The state under a name in the output folder; an error is said, not returned (another error is why it is written). */
 void cipc_simulation_write_state(const cipc_simulation *s, const char *name, const double *position);
 
+/* The frame of the present state as DIR/obj/frame_NNNNN.obj. */
+cipc_status cipc_simulation_frame_obj(const cipc_simulation *s, cipc_error *error);
+
 /* The files of the end (cli/results.c): summary, XDMF, pictures, also after a run that failed. The first error. */
 cipc_status cipc_simulation_results(cipc_simulation *s, cipc_error *error);
 /* XDMF for the frames so far. */

@@ -85,7 +85,8 @@ static cipc_status look(void *context, const cipc_accepted_point *point, cipc_er
 /* What holds of a whole step: it converged to the tolerance; and a step without any accepted point leaves a good state too. */
 static cipc_status check_step(cipc_simulation *s, const cipc_step_report *report, cipc_error *error)
 {
-    const cipc_accepted_point end = {.x = s->scene->state->position, .step = s->scene->state->step - 1, .iteration = report->newton_iterations - 1};
+    const cipc_accepted_point end = {
+        .x = s->scene->state->position, .step = s->scene->state->step - 1, .iteration = report->newton_iterations - 1};
     cipc_status status = cipc_monitor_residual(report->residual, s->scene->options.newton_tolerance, error);
     if (status != CIPC_OK) {
         return report_violation(s, &end, NULL, error);
@@ -93,7 +94,7 @@ static cipc_status check_step(cipc_simulation *s, const cipc_step_report *report
     return s->seen.points == 0 ? check_point(s, &end, error) : CIPC_OK;
 }
 
-static cipc_status write_frame_obj(const cipc_simulation *s, cipc_error *error)
+cipc_status cipc_simulation_frame_obj(const cipc_simulation *s, cipc_error *error)
 {
     char name[64];
     snprintf(name, sizeof name, "obj/frame_%05d.obj", s->scene->state->step);
@@ -122,7 +123,7 @@ static cipc_status write_step(cipc_simulation *s, const cipc_step_report *report
         status = cipc_trajectory_append(s->trajectory, state, error);
     }
     if (status == CIPC_OK && s->request->write_obj) {
-        status = write_frame_obj(s, error);
+        status = cipc_simulation_frame_obj(s, error);
     }
     if (status == CIPC_OK && is_power_of_two(cipc_trajectory_frames(s->trajectory))) {
         status = cipc_simulation_xdmf(s, error);

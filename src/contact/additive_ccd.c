@@ -1,4 +1,4 @@
-/* Additive continuous collision detection (SPEC C.5, Algorithm 1 of the C-IPC paper). */
+/* Additive continuous collision detection (SPEC C.5, Algorithm 1 of the C-IPC paper; docs/theory/contact.md (10)-(18)). */
 #include "cipc/contact.h"
 
 #include <math.h>
@@ -25,7 +25,7 @@ static double true_distance2(cipc_pair_kind kind, const double *x)
     }
 }
 
-/* l_p of (15): how fast the two primitives can approach at most. */
+/* (12) l_p: how fast the two primitives can approach at most. */
 static double largest_approach(cipc_pair_kind kind, const double *p)
 {
     double a = 0, b = 0;
@@ -37,7 +37,7 @@ static double largest_approach(cipc_pair_kind kind, const double *p)
     return a + b;
 }
 
-/* (14): displacements relative to their mean, positions relative to the first node: the result depends on neither a common motion nor the
+/* (11): displacements relative to their mean, positions relative to the first node: the result depends on neither a common motion nor the
  * world's origin. */
 static void localize(int count, const double *x, const double *p, double x0[12], double p0[12])
 {
@@ -49,10 +49,10 @@ static void localize(int count, const double *x, const double *p, double x0[12],
     }
 }
 
-/* (12): d - xi from d^2, without cancellation of the root. */
+/* (9): d - xi from d^2, without cancellation of the root. */
 static double gap_of(double d2, double xi) { return (d2 - xi * xi) / (sqrt(d2) + xi); }
 
-/* A gap that is certainly smaller than the computed one: the largest separation of the primitives' boxes along an axis, less xi and less
+/* g of (20), certainly smaller than the computed gap: the largest separation of the primitives' boxes along an axis, less xi and less
  * 2^-46 = 128 u of the stencil's size for the rounding of both. */
 static double box_gap(cipc_pair_kind kind, const double *x, double xi)
 {
@@ -84,7 +84,7 @@ cipc_ccd_result cipc_additive_ccd_until(cipc_pair_kind kind, const double *x, co
     localize(node_count[kind], x, p, x0, p0);
     double lp = largest_approach(kind, p0);
     if (lp == 0) return result;
-    /* (17) alone may show that the result is later than the bound. */
+    /* (20): the first step alone leads beyond the bound */
     if (bound < t_max && (1 - options->slackness) * box_gap(kind, x0, xi) > bound * lp) return result;
     double gap = gap_of(true_distance2(kind, x0), xi);
     if (!(gap > 0)) {
@@ -95,22 +95,22 @@ cipc_ccd_result cipc_additive_ccd_until(cipc_pair_kind kind, const double *x, co
     double target = options->slackness * gap, t = 0, t_l = (1 - options->slackness) * gap / lp;
     for (result.iterations = 1; result.iterations <= options->max_iterations; result.iterations++) {
         double next = t + t_l;
-        /* (19) Certified beyond t_max: asked before the gap is looked at, this saves early hits (SPEC V.4); Algorithm 1 asks after it. */
+        /* (17), asked before (15), saves early hits (SPEC V.4); Algorithm 1 asks (15) first. */
         if (!options->gap_first && next > t_max) return result;
         for (int i = 0; i < n; i++) y[i] = x0[i] + next * p0[i];
         gap = gap_of(true_distance2(kind, y), xi);
-        if (t > 0 && gap < target) {
+        if (t > 0 && gap < target) { /* (15) */
             result.toi = t;
             result.hit = true;
             return result;
         }
-        if (t == 0 && !(gap > 0) && next <= t_max) { /* (20) a first step that rounding spoilt: a shorter one */
+        if (t == 0 && !(gap > 0) && next <= t_max) { /* (18) a first step that rounding spoilt: a shorter one */
             t_l *= 0.5;
             continue;
         }
         if (next > bound) return result;
         t = next;
-        t_l = (1 - options->slackness) * gap / lp;
+        t_l = (1 - options->slackness) * gap / lp; /* (14) */
     }
     result.toi = t;
     result.hit = true;

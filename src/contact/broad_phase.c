@@ -1,4 +1,4 @@
-/* Broad phase: swept boxes of triangles and edges in two box trees, queried by nodes and edges (docs/theory/contact.md). */
+/* Broad phase: swept boxes of triangles and edges in two box trees, queried by nodes and edges (docs/theory/contact.md (1)-(3)). */
 #include "cipc/contact.h"
 
 #include <float.h>
@@ -80,8 +80,8 @@ static cipc_box box_union(const cipc_box *a, const cipc_box *b)
     return r;
 }
 
-/* Boxes of the nodes' paths, each inflated by half of (xi + reach), so that two boxes of primitives that come within xi_pair + reach overlap.
- * The inflation is enlarged by 4 ulp of the largest coordinate and relatively by 2^-40, more than the rounding of the sums below. */
+/* (2): boxes of the nodes' paths, each inflated by half of (xi + reach), so that two boxes of primitives that come within xi_pair + reach overlap.
+ * The inflation is enlarged by 4 ulp of the largest coordinate and relatively by 2^-40, more than the rounding of the sums below: (3). */
 static void swept_boxes(cipc_broad_phase *b, const cipc_model *model, const double *x, const double *p, double t_max, double reach)
 {
     for (int i = 0; i < model->node_count; i++) {

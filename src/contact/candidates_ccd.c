@@ -1,4 +1,4 @@
-/* The largest collision-free step over all candidate pairs (SPEC C.5, D.5). */
+/* The largest collision-free step over all candidate pairs (SPEC C.5, D.5; docs/theory/contact.md (19), (20)). */
 #include "cipc/contact.h"
 
 #include <math.h>
@@ -36,8 +36,8 @@ typedef struct earliest {
     long index;
 } earliest;
 
-/* (21): every pair is asked with the same t_max - the end of the path decides whether a gap is an early hit (19) - and may only give up early when
- * another pair has hit before. So the minimum over pairs does not depend on their order. */
+/* (19): every pair is asked with the same t_max - the end of the path decides whether a gap is an early hit (17) - and may only give up early
+ * when another pair has hit before. So the minimum over pairs does not depend on their order. */
 static void test_candidate(const cipc_model *model, const cipc_candidates *c, const double *x, const double *p, double t_max, long index,
                            const cipc_ccd_options *options, earliest *best)
 {

@@ -1,4 +1,4 @@
-/* Active contact stencils: classification, activation, merging (SPEC D.1-D.3, C.4). */
+/* Active contact stencils: classification, activation, merging (SPEC D.1-D.3, C.4; docs/theory/contact.md (4)-(9)). */
 #include "cipc/contact.h"
 
 #include <float.h>
@@ -9,7 +9,7 @@
 #include "base/vector.h"
 #include "contact/stencil.h"
 
-/* eps_x = mollifier_fraction |A|^2 |B|^2 with rest lengths (SPEC D.3). */
+/* (8): eps_x = mollifier_fraction |A|^2 |B|^2 with rest lengths (SPEC D.3). */
 static const double mollifier_fraction = 1e-3;
 
 cipc_contact_options cipc_contact_options_default(void)
@@ -51,7 +51,7 @@ static cipc_contact feature_contact(const cipc_feature *feature, const int nodes
     return c;
 }
 
-/* d - xi from d^2, without cancellation of the root. */
+/* (9): d - xi from d^2, without cancellation of the root. */
 static double gap_of(double d2, double xi) { return (d2 - xi * xi) / (sqrt(d2) + xi); }
 
 /* Box test on the stencil's own nodes: most candidates end here. `first` nodes belong to the first primitive. */
@@ -86,7 +86,7 @@ static bool activate(const activation *a, bool edge_edge, const int pair[2], cip
     double z[12];
     for (int i = 0; i < feature.count; i++) v3_copy(z + 3 * i, y + 3 * feature.local[i]);
     double d2 = cipc_distance2_value(feature.kind, z);
-    if (!(d2 < reach * reach)) return false;
+    if (!(d2 < reach * reach)) return false; /* (4) */
     double mollifier_eps = 0;
     if (edge_edge) {
         double eps = mollifier_fraction * edge_rest_length2(a->model, pair[0]) * edge_rest_length2(a->model, pair[1]);
@@ -99,7 +99,7 @@ static bool activate(const activation *a, bool edge_edge, const int pair[2], cip
         *c = feature_contact(&feature, nodes, a->options->merge_directed);
     }
     double weight = 1;
-    if (a->options->area_weights)
+    if (a->options->area_weights) /* (6) */
         weight = edge_edge ? 0.5 * (a->model->edge_area[pair[0]] + a->model->edge_area[pair[1]]) / a->mean_edge_area
                            : a->model->node_area[nodes[0]] / a->mean_node_area;
     cipc_contact_barrier barrier = {.stiffness = a->stiffness, .weight = weight, .offset = xi, .dhat = a->options->dhat,
@@ -150,7 +150,7 @@ static bool same_stencil(const cipc_contact *a, const cipc_contact *b)
     return a->energy == b->energy && a->energy <= CIPC_ENERGY_BARRIER_POINT_EDGE && memcmp(a->nodes, b->nodes, sizeof a->nodes) == 0;
 }
 
-/* Equal point-point and point-edge stencils become one with the sum of their weights (SPEC D.1). */
+/* (7): equal point-point and point-edge stencils become one with the sum of their weights (SPEC D.1). */
 static void merge(cipc_contact_set *set)
 {
     if (set->count == 0) return;

@@ -1,4 +1,4 @@
-/* Lagged friction data of a contact (SPEC D.6). */
+/* Lagged friction data of a contact (SPEC D.6; docs/theory/contact.md (24), (25)). */
 #include "cipc/contact.h"
 
 #include <math.h>
@@ -19,7 +19,7 @@ static void second_tangent(double basis[6], const double direction[3])
     normalize(basis + 3);
 }
 
-/* Orthonormal tangents of the contact plane. The first is along an edge where there is one, so that it does not jump with the contact's
+/* (25): orthonormal tangents of the contact plane. The first is along an edge where there is one, so that it does not jump with the contact's
  * direction; `closest` is the vector between the closest points. */
 static void tangent_basis(cipc_pair_kind kind, const double *y, const double closest[3], double basis[6])
 {
@@ -67,7 +67,7 @@ bool cipc_friction_from_contact(cipc_friction *friction, const cipc_contact *con
     const cipc_contact_barrier *barrier = &contact->barrier;
     double d2 = cipc_distance2_value(kind, y), xi = barrier->offset;
     cipc_barrier(d2 - xi * xi, barrier->dhat * (2 * xi + barrier->dhat), b);
-    /* lambda = -kappa dB/dd = -kappa w b'(D) 2 d (SPEC C.4) */
+    /* (24): lambda = -kappa dB/dd = -kappa w b'(D) 2 d (SPEC C.4) */
     double lambda = -barrier->stiffness * barrier->weight * b[1] * 2 * sqrt(d2);
     if (!(lambda > 0)) return false;
     friction->coefficient = mu * lambda;

@@ -1,4 +1,4 @@
-/* The range of the barrier stiffness kappa (SPEC D.4, C.7). */
+/* The range of the barrier stiffness kappa (SPEC D.4, C.7; docs/theory/contact.md (21)-(23)). */
 #include "cipc/contact.h"
 
 #include <math.h>
@@ -14,7 +14,7 @@ cipc_stiffness_range cipc_barrier_stiffness_range(double diagonal, double mean_m
     double d = gap_fraction * diagonal + xi, b[3];
     double d0 = gap_fraction * diagonal * (gap_fraction * diagonal + 2 * xi); /* d^2 - xi^2 */
     double Dhat = dhat * (2 * xi + dhat);
-    /* A support shorter than the probing gap would see no barrier at all: probe at a hundredth of it then. */
+    /* (22): a support shorter than the probing gap would see no barrier at all: probe at a hundredth of it then. */
     if (d0 > 0.01 * Dhat) {
         d0 = 0.01 * Dhat;
         d = sqrt(d0 + xi * xi);

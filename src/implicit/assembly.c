@@ -123,6 +123,7 @@ static cipc_status new_pattern(cipc_stepper *s, const cipc_term_list lists[CIPC_
     double begin = cipc_seconds();
     int(*pairs)[2] = NULL;
     long count = 0;
+    s->pattern_valid = false; /* until all of it is there */
     cipc_status status = collect_pairs(s, lists, &pairs, &count, error);
     if (status) return status;
     cipc_block_matrix_free(&s->matrix);

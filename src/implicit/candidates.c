@@ -39,7 +39,7 @@ cipc_status cipc_cache_cover(cipc_stepper *s, const double *x, const double *p, 
     if (c->slack > 0 && 2 * largest_excursion(s, x, p) < c->slack) return CIPC_OK;
     double begin = cipc_seconds(), dhat = s->options.contact.dhat;
     double slack = min2(max2(0.5 * largest_displacement(s, p), least_slack * dhat), most_slack * dhat);
-    cipc_status status = cipc_broad_phase_find(c->broad_phase, s->model, x, p, 1, dhat + slack, s->is_dirichlet, s->options.threads, &c->candidates, error);
+    cipc_status status = cipc_broad_phase_find(c->broad_phase, s->model, x, p, 1, dhat + slack, s->passive, s->options.threads, &c->candidates, error);
     memcpy(c->reference, x, 3 * (size_t)s->model->node_count * sizeof(double));
     c->along_path = p != NULL;
     c->slack = status ? 0 : slack;

@@ -27,6 +27,18 @@ static bool any_moves(const cipc_stepper *s)
     return false;
 }
 
+/* Contacts between prescribed nodes change nothing while all of these rest, and obstacles (fixed bodies) may interpenetrate; but a moving sheet that is not an
+ * obstacle must not be driven into what stands still. Does not depend on the penalty: what is prescribed at the start of the step counts. */
+static void find_passive(cipc_stepper *s)
+{
+    bool moving = any_moves(s);
+    for (int i = 0; i < s->model->node_count; i++) {
+        bool passive = s->is_dirichlet[i] && (!moving || s->model->bodies[s->model->node_body[i]].fixed);
+        if (passive != s->passive[i]) s->cache.slack = 0; /* the candidates leave out pairs of passive nodes */
+        s->passive[i] = passive;
+    }
+}
+
 /* The way from x to the targets of the moving nodes, in s->direction. */
 static void way_to_target(cipc_stepper *s)
 {
@@ -69,7 +81,6 @@ static void renumber_if_changed(cipc_stepper *s)
     for (int i = 0; i < s->model->node_count; i++)
         if ((s->free_index[i] < 0) != s->is_dirichlet[i]) {
             cipc_number_free_nodes(s);
-            s->cache.slack = 0; /* the candidates leave out pairs of Dirichlet nodes */
             break;
         }
 }
@@ -78,6 +89,7 @@ cipc_status cipc_dirichlet_begin(cipc_stepper *s, double time, cipc_error *error
 {
     cipc_dirichlet_targets(s->model, s->x, time, s->options.time_step, s->is_dirichlet, s->target, s->moves);
     s->penalty = 0;
+    find_passive(s);
     renumber_if_changed(s);
     if (!any_moves(s)) return CIPC_OK;
     double alpha;

@@ -5,10 +5,14 @@
 #include <omp.h>
 #include <string.h>
 
+#include "implicit/split_factor.h"
+
 /* An order is kept for the patterns that follow (contacts come and go, the mesh stays) until the factor has grown by this much since it was made. */
 static const double largest_growth = 1.25;
 
 struct cipc_linear_solver {
+    cipc_split_factor *split;
+    bool in_halves;       /* the present pattern is factorised by `split` */
     cholmod_common common;
     int *order;           /* fill-reducing order of the scalars, 3 n; NULL: none yet */
     int n;                /* block rows it is for */
@@ -27,6 +31,12 @@ cipc_status cipc_linear_solver_create(cipc_linear_solver **solver, cipc_error *e
         *solver = NULL;
         return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "linear solver", "CHOLMOD does not start");
     }
+    cipc_status status = cipc_split_factor_create(&s->split, error);
+    if (status) {
+        cipc_linear_solver_destroy(s);
+        *solver = NULL;
+        return status;
+    }
     s->common.print = 0; /* errors come back as status */
     s->common.final_ll = 1;
     return CIPC_OK;
@@ -35,6 +45,7 @@ cipc_status cipc_linear_solver_create(cipc_linear_solver **solver, cipc_error *e
 void cipc_linear_solver_destroy(cipc_linear_solver *s)
 {
     if (!s) return;
+    cipc_split_factor_destroy(s->split);
     cipc_free(s->order);
     cholmod_free_factor(&s->factor, &s->common);
     cholmod_free_dense(&s->solution, &s->common);
@@ -97,12 +108,14 @@ static cipc_status analyze_in_order(cipc_linear_solver *s, const cipc_block_matr
     s->common.supernodal = CHOLMOD_AUTO;
     cholmod_free_factor(&s->factor, &s->common);
     s->factor = cholmod_analyze_p(&view, s->order, NULL, 0, &s->common);
+    if (s->in_halves) return cipc_split_factor_entries(s->split);
     return s->factor ? CIPC_OK : solver_error(s, "analyse the matrix", error);
 }
 
 cipc_status cipc_linear_solver_analyze(cipc_linear_solver *s, const cipc_block_matrix *A, cipc_error *error)
 {
-    cipc_status status = CIPC_OK;
+    cipc_status status = cipc_split_factor_analyze(s->split, A, &s->in_halves, error);
+    if (status || s->in_halves) return status;
     if (s->order && s->n == A->n) {
         status = analyze_in_order(s, A, error);
         if (status || s->common.lnz <= largest_growth * s->fresh_entries) return status;
@@ -119,6 +132,11 @@ cipc_status cipc_linear_solver_factorize(cipc_linear_solver *s, const cipc_block
     /* CHOLMOD opens parallel regions of its own accord; one thread asked for is one thread used. */
     int levels = omp_get_max_active_levels();
     if (threads == 1) omp_set_max_active_levels(0);
+    if (s->in_halves) {
+        cipc_status status = cipc_split_factor_factorize(s->split, A, threads, definite, error);
+        omp_set_max_active_levels(levels);
+        return status;
+    }
     cholmod_factorize(&view, s->factor, &s->common);
     omp_set_max_active_levels(levels);
     *definite = s->common.status == CHOLMOD_OK;
@@ -126,8 +144,9 @@ cipc_status cipc_linear_solver_factorize(cipc_linear_solver *s, const cipc_block
     return solver_error(s, "factorise the matrix", error);
 }
 
-cipc_status cipc_linear_solver_solve(cipc_linear_solver *s, const double *b, double *x, cipc_error *error)
+cipc_status cipc_linear_solver_solve(cipc_linear_solver *s, const double *b, double *x, int threads, cipc_error *error)
 {
+    if (s->in_halves) return cipc_split_factor_solve(s->split, b, x, threads, error);
     size_t n = s->factor->n;
     double *values = cipc_alloc(n, sizeof(double)); /* CHOLMOD's views are not const */
     if (!values) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "linear solver", "no memory to solve");
@@ -142,5 +161,6 @@ cipc_status cipc_linear_solver_solve(cipc_linear_solver *s, const double *b, dou
 
 double cipc_linear_solver_factor_entries(const cipc_linear_solver *s)
 {
+    if (s->in_halves) return cipc_split_factor_entries(s->split);
     return s->factor ? (s->factor->is_super ? (double)s->factor->xsize : (double)s->factor->nzmax) : 0;
 }

@@ -1,4 +1,5 @@
-/* Direct solution of the Newton system by CHOLMOD, with the symbolic factorisation kept while the pattern holds. */
+/* Direct solution of the Newton system by CHOLMOD, with the symbolic factorisation kept while the pattern holds; larger systems in two halves at a time
+ * (split_factor.h). */
 #ifndef CIPC_IMPLICIT_LINEAR_SOLVER_H
 #define CIPC_IMPLICIT_LINEAR_SOLVER_H
 
@@ -16,7 +17,7 @@ cipc_status cipc_linear_solver_analyze(cipc_linear_solver *solver, const cipc_bl
  * the result. */
 cipc_status cipc_linear_solver_factorize(cipc_linear_solver *solver, const cipc_block_matrix *A, int threads, bool *definite, cipc_error *error);
 /* A x = b, 3n numbers each. */
-cipc_status cipc_linear_solver_solve(cipc_linear_solver *solver, const double *b, double *x, cipc_error *error);
+cipc_status cipc_linear_solver_solve(cipc_linear_solver *solver, const double *b, double *x, int threads, cipc_error *error);
 /* Entries of the factor, for the statistics. */
 double cipc_linear_solver_factor_entries(const cipc_linear_solver *solver);
 

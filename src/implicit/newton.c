@@ -31,6 +31,10 @@ typedef struct minimisation {
     int iteration;
 } minimisation;
 
+/* Place of an error. */
+enum { PLACE_SIZE = 32 };
+static void name_step(const cipc_stepper *s, char place[PLACE_SIZE]) { (void)snprintf(place, PLACE_SIZE, "step %d", s->step); }
+
 static void shift_diagonal(cipc_stepper *s, double shift)
 {
     for (int k = 0; k < s->free_count; k++) {
@@ -67,7 +71,10 @@ static cipc_status factorize(cipc_stepper *s, cipc_error *error)
         cipc_status status = try_factorization(s, &definite, error);
         if (status) return status;
     }
-    return definite ? CIPC_OK : cipc_fail(error, CIPC_E_FACTORIZATION, "newton", "the Newton matrix is not positive definite, even with mass added");
+    if (definite) return CIPC_OK;
+    char place[PLACE_SIZE];
+    name_step(s, place);
+    return cipc_fail(error, CIPC_E_FACTORIZATION, place, "the Newton matrix is not positive definite, even with mass added");
 }
 
 /* Factor of the exact Hessian if that is worth trying and positive definite, of the projected one otherwise. */
@@ -97,7 +104,7 @@ static cipc_status newton_direction(cipc_stepper *s, minimisation *m, cipc_error
     if (status) return status;
     begin = cipc_seconds();
     for (int k = 0; k < s->free_count; k++) v3_scale(s->right + 3 * k, -1, s->gradient + 3 * s->free_nodes[k]);
-    status = cipc_linear_solver_solve(s->solver, s->right, s->solution, error);
+    status = cipc_linear_solver_solve(s->solver, s->right, s->solution, s->options.threads, error);
     if (status) return status;
     memset(s->direction, 0, 3 * (size_t)s->model->node_count * sizeof(double));
     *slope = 0;
@@ -171,6 +178,31 @@ static cipc_status adapt(cipc_stepper *s, minimisation *m, cipc_error *error)
     return changed ? energy_now(s, &m->energy, error) : CIPC_OK;
 }
 
+/* What limited the last step, or else the closest contact, as the end of a message; empty if there is neither. */
+enum { LIMIT_SIZE = 160 };
+static void describe_limit(const cipc_stepper *s, char text[LIMIT_SIZE])
+{
+    const int *n = s->limit.nodes;
+    text[0] = 0;
+    if (s->limit.what && n[0] < 0) {
+        (void)snprintf(text, LIMIT_SIZE, "; limited by %s", s->limit.what);
+    } else if (s->limit.what) {
+        (void)snprintf(text, LIMIT_SIZE, "; limited by %s at nodes %d %d %d %d", s->limit.what, n[0], n[1], n[2], n[3]);
+    } else if (s->contacts.count > 0) {
+        n = s->contacts.contacts[s->contacts.min_gap_contact].nodes;
+        (void)snprintf(text, LIMIT_SIZE, "; closest contact, %.3g m, at nodes %d %d %d %d", s->contacts.min_gap, n[0], n[1], n[2], n[3]);
+    }
+}
+
+static cipc_status no_progress(const cipc_stepper *s, const minimisation *m, cipc_error *error)
+{
+    char place[PLACE_SIZE], limit[LIMIT_SIZE];
+    name_step(s, place);
+    describe_limit(s, limit);
+    return cipc_fail(error, CIPC_E_NO_PROGRESS, place, "scripted nodes got %.4g of their way and no further (residual %.3g m/s): something is in it%s",
+                     cipc_dirichlet_progress(s), m->residual, limit);
+}
+
 /* Penalised nodes: on to their targets, or a stiffer pull. *waiting: they are not there yet. */
 static cipc_status drive_penalty(cipc_stepper *s, minimisation *m, bool converged, bool *waiting, cipc_error *error)
 {
@@ -182,8 +214,7 @@ static cipc_status drive_penalty(cipc_stepper *s, minimisation *m, bool converge
     *waiting = true;
     if (!done && (converged || m->residual < 10 * s->options.newton_tolerance)) {
         if (s->penalty >= largest_penalty && converged)
-            return cipc_fail(error, CIPC_E_NO_PROGRESS, "newton", "scripted nodes got %.4g of their way and no further: something is in it",
-                             cipc_dirichlet_progress(s));
+            return no_progress(s, m, error);
         s->penalty = fmin(2 * s->penalty, largest_penalty);
     }
     return energy_now(s, &m->energy, error);
@@ -191,14 +222,11 @@ static cipc_status drive_penalty(cipc_stepper *s, minimisation *m, bool converge
 
 static cipc_status not_converged(const cipc_stepper *s, const minimisation *m, cipc_error *error)
 {
-    char place[64];
-    const int *n = s->limit.nodes;
-    (void)snprintf(place, sizeof place, "step %d", s->step);
-    if (s->limit.what && n[0] >= 0)
-        return cipc_fail(error, CIPC_E_NOT_CONVERGED, place, "not converged after %d iterations: residual %.3g m/s, tolerance %.3g; limited by %s at nodes %d %d %d %d",
-                         m->iteration, m->residual, s->options.newton_tolerance, s->limit.what, n[0], n[1], n[2], n[3]);
-    return cipc_fail(error, CIPC_E_NOT_CONVERGED, place, "not converged after %d iterations: residual %.3g m/s, tolerance %.3g%s%s", m->iteration, m->residual,
-                     s->options.newton_tolerance, s->limit.what ? "; limited by " : "", s->limit.what ? s->limit.what : "");
+    char place[PLACE_SIZE], limit[LIMIT_SIZE];
+    name_step(s, place);
+    describe_limit(s, limit);
+    return cipc_fail(error, CIPC_E_NOT_CONVERGED, place, "not converged after %d iterations: residual %.3g m/s, tolerance %.3g%s", m->iteration, m->residual,
+                     s->options.newton_tolerance, limit);
 }
 
 cipc_status cipc_newton(cipc_stepper *s, cipc_error *error)

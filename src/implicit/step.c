@@ -39,9 +39,10 @@ static cipc_status allocate(cipc_stepper *s, cipc_error *error)
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) good = (*arrays[i] = cipc_alloc(3 * n, sizeof(double))) && good;
     s->is_dirichlet = cipc_alloc(n, sizeof(bool));
     s->moves = cipc_alloc(n, sizeof(bool));
+    s->passive = cipc_alloc(n, sizeof(bool));
     s->free_index = cipc_alloc(n, sizeof(int));
     s->free_nodes = cipc_alloc(n, sizeof(int));
-    if (good && s->is_dirichlet && s->moves && s->free_index && s->free_nodes) return CIPC_OK;
+    if (good && s->is_dirichlet && s->moves && s->passive && s->free_index && s->free_nodes) return CIPC_OK;
     return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "stepper", "no memory for %zu nodes", n);
 }
 
@@ -105,7 +106,7 @@ void cipc_stepper_destroy(cipc_stepper *s)
     cipc_block_matrix_free(&s->matrix);
     cipc_linear_solver_destroy(s->solver);
     void *blocks[] = {s->x_start, s->x_hat, s->x, s->trial, s->blend, s->gradient, s->direction, s->target, s->right, s->solution, s->cache.reference,
-                      s->is_dirichlet, s->moves, s->free_index, s->free_nodes, s->friction.params, s->friction.nodes, s->static_slots, s->contact_slots,
+                      s->is_dirichlet, s->moves, s->passive, s->free_index, s->free_nodes, s->friction.params, s->friction.nodes, s->static_slots, s->contact_slots,
                       s->kept_pairs, s->values, s->locals, s};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) cipc_free(blocks[i]);
 }
@@ -206,13 +207,25 @@ static void finish_state(const cipc_stepper *s, cipc_state *state)
     state->time = state->step * h;
 }
 
+/* Psi at the end of the step: with the midpoint rule E has it in the middle. */
+static cipc_status elastic_energy(cipc_stepper *s, double *elastic, cipc_error *error)
+{
+    const cipc_integrator euler = {1, 1, 0}, own = s->options.integrator;
+    cipc_energy_terms terms = s->report->incremental;
+    cipc_status status = CIPC_OK;
+    s->options.integrator = euler;
+    if (own.beta != 1 || own.alpha != 1) status = cipc_potential_value(s, s->x, &s->contacts, &terms, error);
+    s->options.integrator = own;
+    *elastic = (terms.membrane + terms.bending + terms.strain_limit) / (s->options.time_step * s->options.time_step);
+    return status;
+}
+
 /* Energies of the state reached, for the statistics. */
 static cipc_status physical_energies(cipc_stepper *s, const cipc_state *state, cipc_error *error)
 {
     cipc_step_report *r = s->report;
     cipc_status status = cipc_potential_value(s, s->x, &s->contacts, &r->incremental, error);
-    double h = s->options.time_step, elastic = s->options.integrator.alpha * h * h;
-    r->elastic = (r->incremental.membrane + r->incremental.bending + r->incremental.strain_limit / s->options.integrator.beta) / elastic;
+    if (!status) status = elastic_energy(s, &r->elastic, error);
     for (int k = 0; k < s->free_count; k++) {
         int i = s->free_nodes[k];
         r->kinetic += 0.5 * s->model->mass[i] * v3_norm2(state->velocity + 3 * i);

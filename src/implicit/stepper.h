@@ -57,6 +57,7 @@ struct cipc_stepper {
     double *gradient, *direction;                /* 3 * node_count; 0 at Dirichlet nodes */
     double *target;
     bool *is_dirichlet, *moves;
+    bool *passive;                /* nodes that do not meet one another: see dirichlet_motion.c */
     int *free_index;              /* node -> row of the Newton system, or -1 */
     int *free_nodes, free_count;
     double penalty;               /* k_D of nodes that could not be moved at once; 0: none */
@@ -129,7 +130,8 @@ static inline const void *cipc_term_params(const cipc_term_list *list, int i)
 }
 static inline const int *cipc_term_nodes(const cipc_term_list *list, int i) { return (const int *)(const void *)(list->nodes + (size_t)i * list->nodes_stride); }
 
-/* assembly.c: projected Hessian of E at s->x into s->matrix; keeps pattern and symbolic factorisation while they fit. */
+/* assembly.c: projected Hessian of E at s->x into s->matrix; keeps pattern and symbolic factorisation while they fit. Call cipc_potential_gradient first:
+ * it fills s->blend. */
 cipc_status cipc_assemble_hessian(cipc_stepper *s, cipc_error *error);
 void cipc_assembly_invalidate(cipc_stepper *s);
 

@@ -6,7 +6,7 @@
 
 static const double margin_of_range = 0.06;   /* of the range, above and below */
 static const double air_of_decade = 2;        /* factor */
-static const double least_log = 1e-300, greatest_log = 1e300; /* a logarithmic axis ends there */
+static const double least_decade = -300, greatest_decade = 300; /* where a logarithmic axis ends */
 static const double small_text = 12, title_text = 14; /* pixels */
 enum { MOST_TICKS = 6, MOST_DECADES = 8 };
 
@@ -56,19 +56,19 @@ void cipc_axes_settle(cipc_axes *axes)
         return;
     }
     if (!(axes->x_hi > axes->x_lo)) {
-        axes->x_hi = axes->x_lo + 1;
+        const double half = fmax(0.5, margin_of_range * fabs(axes->x_lo));
+        axes->x_lo -= half;
+        axes->x_hi += half;
     }
     if (!axes->log_y) {
         settle_linear(&axes->y_lo, &axes->y_hi);
         return;
     }
-    double lo = floor(log10(axes->y_lo)), hi = ceil(log10(axes->y_hi));
-    if (!(hi > lo)) {
-        hi = lo + 1;
-    }
+    const double lo = fmin(fmax(floor(log10(axes->y_lo)), least_decade), greatest_decade - 1);
+    const double hi = fmin(fmax(ceil(log10(axes->y_hi)), lo + 1), greatest_decade);
     const double above = axes->y_hi > 0.7 * pow(10, hi) ? air_of_decade : 1; /* a curve along the box's side is hard to see */
-    axes->y_lo = fmax(pow(10, lo), least_log);
-    axes->y_hi = fmin(above * pow(10, hi), greatest_log);
+    axes->y_lo = pow(10, lo);
+    axes->y_hi = above * pow(10, hi);
 }
 
 static double place_x(const cipc_axes *axes, double x)
@@ -134,17 +134,18 @@ static void put_y_tick(const cipc_axes *axes, cairo_t *cr, double y, const char 
 
 static void put_linear_y_ticks(const cipc_axes *axes, cairo_t *cr)
 {
-    const double step = tick_step(axes->y_hi - axes->y_lo);
-    for (double k = ceil(axes->y_lo / step); k * step <= axes->y_hi; k++) {
+    const double step = tick_step(axes->y_hi - axes->y_lo), first = ceil(axes->y_lo / step);
+    for (int i = 0; i <= MOST_TICKS && (first + i) * step <= axes->y_hi; i++) {
         char text[32];
-        snprintf(text, sizeof text, "%.6g", k * step);
-        put_y_tick(axes, cr, k * step, text);
+        snprintf(text, sizeof text, "%.6g", (first + i) * step);
+        put_y_tick(axes, cr, (first + i) * step, text);
     }
 }
 
 static void put_log_y_ticks(const cipc_axes *axes, cairo_t *cr)
 {
-    const int lo = (int)lround(log10(axes->y_lo)), hi = (int)floor(log10(axes->y_hi) + 1e-9), stride = (hi - lo + MOST_DECADES - 1) / MOST_DECADES;
+    const int lo = (int)lround(log10(axes->y_lo)), hi = (int)floor(log10(axes->y_hi) + 1e-9),
+              stride = (hi - lo + MOST_DECADES - 1) / MOST_DECADES;
     for (int decade = lo; decade <= hi; decade += stride) {
         char text[32];
         snprintf(text, sizeof text, "1e%d", decade);
@@ -164,9 +165,9 @@ static void put_y_label(const cipc_axes *axes, cairo_t *cr, const char *text)
 void cipc_axes_draw(cipc_axes *axes, cairo_t *cr, const char *title, const char *x_label, const char *y_label)
 {
     cairo_select_font_face(cr, "sans-serif", CAIRO_FONT_SLANT_NORMAL, CAIRO_FONT_WEIGHT_NORMAL);
-    const double step = tick_step(axes->x_hi - axes->x_lo);
-    for (double k = ceil(axes->x_lo / step); k * step <= axes->x_hi; k++) {
-        put_x_tick(axes, cr, k * step);
+    const double step = tick_step(axes->x_hi - axes->x_lo), first = ceil(axes->x_lo / step);
+    for (int i = 0; i <= MOST_TICKS && (first + i) * step <= axes->x_hi; i++) {
+        put_x_tick(axes, cr, (first + i) * step);
     }
     if (axes->log_y) {
         put_log_y_ticks(axes, cr);

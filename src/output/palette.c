@@ -20,7 +20,8 @@ cipc_colour cipc_body_colour(const cipc_model *model, int body)
     for (int b = 0; b < body; b++) {
         before += model->bodies[b].fixed == model->bodies[body].fixed;
     }
-    return model->bodies[body].fixed ? pick(fixed, sizeof fixed / sizeof fixed[0], before) : pick(moving, sizeof moving / sizeof moving[0], before);
+    return model->bodies[body].fixed ? pick(fixed, sizeof fixed / sizeof fixed[0], before)
+                                     : pick(moving, sizeof moving / sizeof moving[0], before);
 }
 
 cipc_colour cipc_curve_colour(int i)

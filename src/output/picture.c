@@ -3,6 +3,7 @@
 #include "output/camera.h"
 #include "output/png.h"
 #include "output/raster.h"
+#include "output/shadow.h"
 #include "output/surface_look.h"
 
 #include <math.h>
@@ -14,8 +15,13 @@ static const double size_of_scenery = 1.6; /* a fixed body up to this many times
 
 cipc_picture_options cipc_picture_options_default(void)
 {
-    return (cipc_picture_options){
-        .columns = 3, .rows = 2, .tile_width = 480, .tile_height = 360, .azimuth = default_azimuth, .elevation = default_elevation, .zoom = 1};
+    return (cipc_picture_options){.columns = 3,
+                                  .rows = 2,
+                                  .tile_width = 480,
+                                  .tile_height = 360,
+                                  .azimuth = default_azimuth,
+                                  .elevation = default_elevation,
+                                  .zoom = 1};
 }
 
 /* The frames to show, in memory. */
@@ -27,6 +33,7 @@ typedef struct sheet {
     double *normals;   /* scratch, 3 * node_count */
     cipc_raster raster;
     cipc_camera camera;
+    cipc_bounds subject; /* what the camera looks at */
 } sheet;
 
 static void sheet_free(sheet *s)
@@ -53,7 +60,8 @@ static cipc_status sheet_load(sheet *s, const char *trajectory_path, int frames,
     }
     for (int i = 0; i < s->count; i++) {
         const int frame = s->count > 1 ? (int)lround((double)i * (frames - 1) / (s->count - 1)) : 0;
-        cipc_status status = cipc_trajectory_read(trajectory_path, frame, s->positions + numbers * (size_t)i, s->node_count, &s->times[i], error);
+        cipc_status status =
+            cipc_trajectory_read(trajectory_path, frame, s->positions + numbers * (size_t)i, s->node_count, &s->times[i], error);
         if (status != CIPC_OK) {
             return status;
         }
@@ -83,7 +91,8 @@ static bool is_subject(const sheet *s, const cipc_body *body, double diagonal_of
 
 static void place_camera(sheet *s, const cipc_model *model, const cipc_picture_options *options)
 {
-    cipc_bounds moving = cipc_bounds_empty(), subject = cipc_bounds_empty();
+    cipc_bounds moving = cipc_bounds_empty();
+    s->subject = cipc_bounds_empty();
     for (int b = 0; b < model->body_count; b++) {
         if (!model->bodies[b].fixed) {
             add_body(s, &model->bodies[b], &moving);
@@ -92,10 +101,10 @@ static void place_camera(sheet *s, const cipc_model *model, const cipc_picture_o
     const double diagonal = cipc_bounds_diagonal(&moving);
     for (int b = 0; b < model->body_count; b++) {
         if (is_subject(s, &model->bodies[b], diagonal)) {
-            add_body(s, &model->bodies[b], &subject);
+            add_body(s, &model->bodies[b], &s->subject);
         }
     }
-    s->camera = cipc_camera_look(&subject, options->azimuth, options->elevation, (double)options->tile_width / options->tile_height);
+    s->camera = cipc_camera_look(&s->subject, options->azimuth, options->elevation, (double)options->tile_width / options->tile_height);
     for (int b = 0; b < model->body_count; b++) {
         const cipc_body *body = &model->bodies[b];
         for (int i = 0; i < s->count && is_subject(s, body, diagonal); i++) {
@@ -104,7 +113,7 @@ static void place_camera(sheet *s, const cipc_model *model, const cipc_picture_o
             }
         }
     }
-    cipc_camera_settle(&s->camera, &subject, options->zoom);
+    cipc_camera_settle(&s->camera, &s->subject, options->zoom);
 }
 
 static void draw_label(cairo_t *cr, double x, double y, double time)
@@ -118,21 +127,27 @@ static void draw_label(cairo_t *cr, double x, double y, double time)
     cairo_show_text(cr, text);
 }
 
-static void draw_tiles(sheet *s, const cipc_model *model, const cipc_picture_options *options, cairo_surface_t *surface)
+/* False: out of memory. */
+static bool draw_tiles(sheet *s, const cipc_model *model, const cipc_picture_options *options, cairo_surface_t *surface)
 {
     static const cipc_colour top = {0.965, 0.970, 0.978}, bottom = {0.855, 0.872, 0.895};
+    double light[3];
+    bool good = true;
+    cipc_key_light(&s->camera, light);
     cairo_t *cr = cairo_create(surface);
     cairo_set_source_rgb(cr, 1, 1, 1);
     cairo_paint(cr);
-    for (int i = 0; i < s->count; i++) {
+    for (int i = 0; i < s->count && good; i++) {
         const int left = MARGIN + i % s->columns * (options->tile_width + MARGIN);
         const int upper = MARGIN + i / s->columns * (options->tile_height + MARGIN);
         cipc_raster_clear(&s->raster, top, bottom);
         cipc_surface_draw(&s->raster, model, frame_positions(s, i), &s->camera, s->normals);
+        good = cipc_shadow_cast(&s->raster, model, frame_positions(s, i), &s->camera, &s->subject, light);
         cipc_raster_resolve(&s->raster, surface, left, upper);
         draw_label(cr, left, upper, s->times[i]);
     }
     cairo_destroy(cr);
+    return good;
 }
 
 static cipc_status sheet_paint(sheet *s, const char *path, const cipc_model *model, const cipc_picture_options *options, cipc_error *error)
@@ -144,8 +159,7 @@ static cipc_status sheet_paint(sheet *s, const char *path, const cipc_model *mod
     const int width = MARGIN + s->columns * (options->tile_width + MARGIN), height = MARGIN + s->rows * (options->tile_height + MARGIN);
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, width, height);
     cipc_status status = CIPC_OK;
-    if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) {
-        draw_tiles(s, model, options, surface);
+    if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS && draw_tiles(s, model, options, surface)) {
         status = cipc_png_write(path, surface, error);
     } else {
         status = cipc_fail(error, CIPC_E_OUT_OF_MEMORY, path, "no memory for a picture of %d x %d pixels", width, height);
@@ -159,7 +173,8 @@ cipc_status cipc_frames_png(const char *path, const char *trajectory_path, const
 {
     if (options->columns < 1 || options->rows < 1 || options->tile_width < 1 || options->tile_height < 1 || options->columns > 64 ||
         options->rows > 64 || options->tile_width > 8192 || options->tile_height > 8192) {
-        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, path, "a contact sheet has 1 to 64 columns and rows of tiles 1 to 8192 pixels wide and high");
+        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, path,
+                         "a contact sheet has 1 to 64 columns and rows of tiles 1 to 8192 pixels wide and high");
     }
     int frames = 0;
     cipc_status status = cipc_trajectory_count(trajectory_path, &frames, error);

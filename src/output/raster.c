@@ -96,7 +96,8 @@ void cipc_raster_triangle(cipc_raster *raster, const cipc_raster_corner c[3], ci
     for (int y = top; y <= bottom; y++) {
         for (int x = left; x <= right; x++) {
             const double sx = x + 0.5, sy = y + 0.5;
-            const double w[3] = {area2(&c[1], &c[2], sx, sy) / area, area2(&c[2], &c[0], sx, sy) / area, area2(&c[0], &c[1], sx, sy) / area};
+            const double w[3] = {area2(&c[1], &c[2], sx, sy) / area, area2(&c[2], &c[0], sx, sy) / area,
+                                 area2(&c[0], &c[1], sx, sy) / area};
             if (w[0] < 0 || w[1] < 0 || w[2] < 0) {
                 continue;
             }

@@ -33,13 +33,21 @@ static void node_normals(const cipc_model *model, const double *x, double *norma
     }
 }
 
+void cipc_key_light(const cipc_camera *camera, double towards[3])
+{
+    for (int k = 0; k < 3; k++) {
+        towards[k] = -0.48 * camera->right[k] + 0.72 * camera->up[k] + 0.5 * camera->back[k];
+    }
+    v3_scale(towards, 1 / v3_norm(towards), towards);
+}
+
 /* Lambert's cosine law for a key light over the left shoulder and a weak fill light from the right, and a sky that is brighter than the
  * ground. n is turned to the eye, so both sides of a sheet are lit. All lights are white: a colour's hue survives. */
 static double brightness(const cipc_camera *camera, const double n[3])
 {
     double key[3], fill[3];
+    cipc_key_light(camera, key);
     for (int k = 0; k < 3; k++) {
-        key[k] = -0.50 * camera->right[k] + 0.62 * camera->up[k] + 0.60 * camera->back[k];
         fill[k] = 0.80 * camera->right[k] + 0.10 * camera->up[k] + 0.59 * camera->back[k];
     }
     const double sky = ambient_low + (ambient_high - ambient_low) * (0.5 + 0.5 * n[1]);

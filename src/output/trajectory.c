@@ -321,7 +321,8 @@ cipc_status cipc_trajectory_times(const char *path, double *times, int frame_cou
     silence before = silence_begin();
     cipc_status status = open_to_read(&file, path, error);
     if (status == CIPC_OK && !cipc_trajectory_file_times(&file, frame_count, times)) {
-        status = cipc_fail(error, CIPC_E_IO, path, "cannot read the times of %d frames: the trajectory has %d", frame_count, file.frame_count);
+        status =
+            cipc_fail(error, CIPC_E_IO, path, "cannot read the times of %d frames: the trajectory has %d", frame_count, file.frame_count);
     }
     cipc_trajectory_file_close(&file);
     silence_end(before);

@@ -8,7 +8,7 @@
 static const struct { const char *name, *unit; bool integer; } scalars[CIPC_FRAME_SCALAR_COUNT] = {
     [CIPC_FRAME_TIME] = {"time", "s", false},
     [CIPC_FRAME_STEP] = {"step", "1", true},
-    [CIPC_FRAME_BARRIER_STIFFNESS] = {"barrier_stiffness", "as in the potential", false},
+    [CIPC_FRAME_BARRIER_STIFFNESS] = {"barrier_stiffness", "J/m^4", false},
     [CIPC_FRAME_STRAIN_STIFFNESS_FACTOR] = {"strain_stiffness_factor", "1", false},
 };
 

@@ -47,8 +47,8 @@ static json_t *violation_object(const cipc_accepted_point *point, double time_be
     return object;
 }
 
-cipc_status cipc_violation_write(const char *path, const cipc_accepted_point *point, double time_before, const cipc_invariant_report *report,
-                                 const cipc_error *violation, cipc_error *error)
+cipc_status cipc_violation_write(const char *path, const cipc_accepted_point *point, double time_before,
+                                 const cipc_invariant_report *report, const cipc_error *violation, cipc_error *error)
 {
     bool good = true;
     json_t *object = violation_object(point, time_before, report, violation, &good);

@@ -36,14 +36,16 @@ static void write_slab(FILE *out, const char *h5_name, const char *dataset, int 
     fprintf(out, "          <DataItem ItemType=\"HyperSlab\" Dimensions=\"%d 3\">\n", node_count);
     fprintf(out, "            <DataItem Format=\"XML\" NumberType=\"Int\" Dimensions=\"3 3\">%d 0 0  1 1 1  1 %d 3</DataItem>\n", frame,
             node_count);
-    fprintf(out, "            <DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"%d %d 3\">", frame_count, node_count);
+    fprintf(out, "            <DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"%d %d 3\">", frame_count,
+            node_count);
     write_escaped(out, h5_name);
     fprintf(out, ":/%s</DataItem>\n          </DataItem>\n", dataset);
 }
 
 static void write_grid(FILE *out, const char *h5_name, const cipc_model *model, int frame, int frame_count, double time)
 {
-    fprintf(out, "      <Grid Name=\"frame %d\" GridType=\"Uniform\">\n        <Time Value=\"%.17g\"/>\n", frame, isfinite(time) ? time : frame);
+    fprintf(out, "      <Grid Name=\"frame %d\" GridType=\"Uniform\">\n        <Time Value=\"%.17g\"/>\n", frame,
+            isfinite(time) ? time : frame);
     fprintf(out, "        <Topology TopologyType=\"Triangle\" NumberOfElements=\"%d\">\n          ", model->triangle_count);
     write_item(out, h5_name, "/topology/triangles", "Int", 4, model->triangle_count, 3);
     fputs("        </Topology>\n        <Geometry GeometryType=\"XYZ\">\n", out);

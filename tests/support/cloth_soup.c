@@ -13,7 +13,8 @@
 
 soup_shape soup_shape_default(void)
 {
-    soup_shape shape = {.sheets = 4, .cells = 4, .size = 1, .jitter = 0.1, .world = 0.7, .offset = 0.01, .motion = 0.3, .fixed_first = true};
+    soup_shape shape = {
+        .sheets = 4, .cells = 4, .size = 1, .jitter = 0.1, .world = 0.7, .offset = 0.01, .motion = 0.3, .fixed_first = true};
     return shape;
 }
 
@@ -64,7 +65,8 @@ static cipc_body_description draw_sheet(const soup_shape *shape, int index, uint
         }
     }
     cipc_body_description d = {
-        .material = {.density = 200, .thickness = 1e-3, .membrane = CIPC_MEMBRANE_NEO_HOOKEAN, .membrane_young = 1e5, .membrane_poisson = 0.3},
+        .material =
+            {.density = 200, .thickness = 1e-3, .membrane = CIPC_MEMBRANE_NEO_HOOKEAN, .membrane_young = 1e5, .membrane_poisson = 0.3},
         .offset = shape->offset * (1 + index % 2),
         .friction = 0.1 * (1 + index),
         .fixed = shape->fixed_first && index == 0,

@@ -31,8 +31,8 @@ typedef struct soup {
 soup soup_create(const soup_shape *shape, uint64_t seed);
 void soup_destroy(soup *s);
 
-/* Every (node, triangle), then every (edge, edge) with the lower edge first, in ascending order: of pairs that share no node and are not wholly
- * Dirichlet (is_dirichlet may be NULL). nodes: point or first edge first; xi: the pair's thickness. */
+/* Every (node, triangle), then every (edge, edge) with the lower edge first, in ascending order: of pairs that share no node and are
+ * not wholly Dirichlet (is_dirichlet may be NULL). nodes: point or first edge first; xi: the pair's thickness. */
 typedef void (*pair_visitor)(void *context, bool edge_edge, const int pair[2], const int nodes[4], double xi);
 void visit_all_pairs(const cipc_model *model, const bool *is_dirichlet, pair_visitor visit, void *context);
 

@@ -32,6 +32,7 @@ static inline void crowded_scene(sheet_scene *scene, uint64_t seed, cipc_integra
     scene->options.integrator = integrator;
     scene->options.contact.dhat = crowded_dhat;
     scene->options.barrier_stiffness = 50;
+    scene->options.friction_velocity = 0.05; /* the jolts below slip and stick */
     scene->options.threads = threads;
     scene->gravity[1] = -9.81;
     sheet_add_grid(scene, "floor", floor, wide, deep, 1, 1)->fixed = true;

@@ -42,15 +42,27 @@ sample_run sample_run_create(void)
     cipc_shell_material stone = cotton;
     stone.strain_limit = 0;
     const cipc_body_description bodies[2] = {
-        {.name = "cloth", .material = cotton, .node_count = CLOTH_NODES, .rest = cloth, .position = cloth, .triangle_count = CLOTH_TRIANGLES,
-         .triangles = (const int (*)[3])cloth_triangles},
-        {.name = "ground", .material = stone, .fixed = true, .node_count = 4, .rest = ground, .position = ground, .triangle_count = 2,
+        {.name = "cloth",
+         .material = cotton,
+         .node_count = CLOTH_NODES,
+         .rest = cloth,
+         .position = cloth,
+         .triangle_count = CLOTH_TRIANGLES,
+         .triangles = (const int(*)[3])cloth_triangles},
+        {.name = "ground",
+         .material = stone,
+         .fixed = true,
+         .node_count = 4,
+         .rest = ground,
+         .position = ground,
+         .triangle_count = 2,
          .triangles = ground_triangles},
     };
     const double gravity[3] = {0, -9.81, 0};
     sample_run run = {NULL, NULL};
     cipc_error error;
-    if (cipc_model_create(&run.model, bodies, 2, gravity, &error) != CIPC_OK || cipc_state_create(&run.state, bodies, 2, &error) != CIPC_OK) {
+    if (cipc_model_create(&run.model, bodies, 2, gravity, &error) != CIPC_OK ||
+        cipc_state_create(&run.state, bodies, 2, &error) != CIPC_OK) {
         fail_msg("%s: %s", error.place, error.what);
     }
     return run;

@@ -5,7 +5,8 @@
 #include <stddef.h>
 #include "cipc/model.h"
 
-/* A cloth of 3 x 3 nodes with a strain limit ("cloth", at y = 0.2, size 1) over a fixed ground of two triangles ("ground", y = 0, size 2). */
+/* A cloth of 3 x 3 nodes with a strain limit ("cloth", at y = 0.2, size 1) over a fixed ground of two triangles
+ * ("ground", y = 0, size 2). */
 typedef struct sample_run {
     cipc_model *model;
     cipc_state *state;

@@ -32,6 +32,7 @@ void sheet_scene_init(sheet_scene *scene)
 
 void sheet_scene_free(sheet_scene *scene)
 {
+    cipc_monitor_destroy(scene->monitor);
     cipc_stepper_destroy(scene->stepper);
     cipc_state_destroy(scene->state);
     cipc_model_destroy(scene->model);
@@ -141,6 +142,30 @@ void sheet_steps(sheet_scene *scene, int count)
     for (int i = 0; i < count; i++) sheet_step(scene);
 }
 
+static cipc_status look(void *context, const cipc_accepted_point *point, cipc_error *error)
+{
+    sheet_scene *scene = context;
+    cipc_invariant_report seen;
+    cipc_status status = cipc_monitor_check(scene->monitor, point->x, &seen, error);
+    if (!status && point->energy_valid) scene->energy_rises += cipc_monitor_energy(point->energy_before, point->energy_after, point->energy_noise, NULL) != CIPC_OK;
+    scene->accepted++;
+    scene->min_gap = fmin(scene->min_gap, seen.min_gap);
+    scene->max_stretch_ratio = fmax(scene->max_stretch_ratio, seen.max_stretch_ratio);
+    return status;
+}
+
+void sheet_watch(sheet_scene *scene)
+{
+    cipc_invariant_options options = cipc_invariant_options_default();
+    cipc_monitor_destroy(scene->monitor);
+    assert_int_equal(cipc_monitor_create(&scene->monitor, scene->model, &options, &scene->error), CIPC_OK);
+    scene->accepted = 0;
+    scene->energy_rises = 0;
+    scene->min_gap = INFINITY;
+    scene->max_stretch_ratio = 0;
+    cipc_stepper_set_monitor(scene->stepper, look, scene);
+}
+
 void sheet_begin(sheet_scene *scene)
 {
     cipc_stepper *s = scene->stepper;
@@ -154,6 +179,7 @@ void sheet_begin(sheet_scene *scene)
     s->kappa = s->options.barrier_stiffness > 0 ? s->options.barrier_stiffness : 1;
     s->strain_factor = state->strain_stiffness_factor;
     cipc_dirichlet_targets(s->model, s->x, state->time, s->options.time_step, s->is_dirichlet, s->target, s->moves);
+    memcpy(s->passive, s->is_dirichlet, (size_t)state->node_count * sizeof(bool));
     cipc_number_free_nodes(s);
     s->cache.slack = 0;
     assert_int_equal(cipc_cache_cover(s, s->x, NULL, &scene->error), CIPC_OK);

@@ -3,6 +3,7 @@
 #define SUPPORT_SHEET_SCENE_H
 
 #include "cipc/implicit.h"
+#include "cipc/invariant.h"
 
 enum { SHEET_SCENE_BODIES = 8 };
 
@@ -16,6 +17,11 @@ typedef struct sheet_scene {
     cipc_stepper *stepper;
     cipc_step_report report; /* of the last step */
     cipc_error error;
+    cipc_monitor *monitor;   /* of sheet_watch */
+    int accepted;            /* points that the monitor saw */
+    int energy_rises;        /* among them: energy went up by more than the noise claimed */
+    double min_gap;          /* least d - xi of all points seen, m; INFINITY: none within reach */
+    double max_stretch_ratio; /* largest (sigma - 1)/(s - 1) */
 } sheet_scene;
 
 /* Default options, no bodies, no gravity. */
@@ -43,6 +49,9 @@ cipc_status sheet_try_step(sheet_scene *scene);
 /* One step that must converge. */
 void sheet_step(sheet_scene *scene);
 void sheet_steps(sheet_scene *scene, int count);
+
+/* From now on the exact monitors look at every accepted point; a violation ends the step with its status. After the stepper is made. */
+void sheet_watch(sheet_scene *scene);
 
 /* Working arrays of the stepper as at the start of a step, for tests of its single parts: needs "implicit/stepper.h" to look at. */
 void sheet_begin(sheet_scene *scene);

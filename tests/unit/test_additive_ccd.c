@@ -1,5 +1,5 @@
-/* Additive CCD against exact distances (GMP) and against roots of the coplanarity polynomial (GSL): never past an impact, never below the lower
- * bound, exact head-on, and indifferent to common motion and to the place in the world. */
+/* Additive CCD against exact distances (GMP) and against roots of the coplanarity polynomial (GSL): never past an impact, never below
+ * the lower bound, exact head-on, and indifferent to common motion and to the place in the world. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -94,12 +94,14 @@ static ccd_query draw(uint64_t *seed, cipc_pair_kind kind, int family)
 }
 
 /* Between two evaluations the gap shrinks at most by the factor s, and every evaluation but the last shows at least s of the first gap:
- * so it is at least s^2 of it all the way. Every hit comes after the lower bound (eq. 16), and right before a place where less than s is left. */
+ * so it is at least s^2 of it all the way. Every hit comes after the lower bound (eq. 16), and right before a place where less than s
+ * is left. */
 static void check_query(const ccd_query *q)
 {
     enum { PLACES = 9 };
     cipc_ccd_result r = solve(q, false);
-    double first = exact_gap(q, 0), lp = largest_approach(q), rounding = DISTANCE_ROUNDING * (stencil_size(q->x, 3 * node_count[q->kind]) + lp + q->xi);
+    double first = exact_gap(q, 0), lp = largest_approach(q),
+           rounding = DISTANCE_ROUNDING * (stencil_size(q->x, 3 * node_count[q->kind]) + lp + q->xi);
     assert_false(r.capped);
     for (int i = 0; i < PLACES; i++) {
         double t = r.toi * i / (PLACES - 1), gap = exact_gap(q, t);
@@ -307,7 +309,7 @@ static void test_started_in_contact(void **state)
         for (int i = 0; i < 4; i++) {
             ccd_query q = head_on((cipc_pair_kind)kind, i / 2 ? 1 : -1, thicknesses[i % 2]);
             cipc_ccd_result r = solve(&q, i % 2);
-            assert_true(r.hit && r.toi == 0);
+            assert_true(r.hit && r.toi == 0 && r.iterations == 0 && !r.capped);
         }
 }
 
@@ -362,16 +364,17 @@ static void test_iteration_cap(void **state)
     }
 }
 
-/* At a gap of one ulp the first step lands, by rounding, on a gap of zero. It is shortened until it does not. */
+/* At a gap of a few ulp the first step lands, by rounding, on a gap of zero. It is shortened until it does not. */
 static void test_gap_of_an_ulp(void **state)
 {
     (void)state;
     for (int ulps = 1; ulps <= 16; ulps++) {
-        ccd_query q = {.kind = CIPC_POINT_POINT, .x = {0, 0, 0, 1 + ulps * DBL_EPSILON, 0, 0}, .p = {0, 0, 0, -1, 0, 0}, .xi = 1, .t_max = 1};
+        ccd_query q = {.kind = CIPC_POINT_POINT, .x = {0, 0, 0, 1 + ulps * DBL_EPSILON}, .p = {0.5, 0, 0, -0.5}, .xi = 1, .t_max = 1};
         for (int gap_first = 0; gap_first < 2; gap_first++) {
             cipc_ccd_result r = solve(&q, gap_first);
             assert_true(r.hit && !r.capped && r.toi > 0);
             assert_true(r.toi < ulps * DBL_EPSILON); /* the impact */
+            assert_true((q.x[3] - 0.5 * r.toi) - 0.5 * r.toi > q.xi);
         }
     }
 }

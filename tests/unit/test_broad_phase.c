@@ -1,5 +1,5 @@
-/* Broad phase: no pair that comes close is lost, few others are kept, the order is fixed, the cost grows like n log n, and no allocation that
- * fails does harm. */
+/* Broad phase: no pair that comes close is lost, few others are kept, the order is fixed, the cost grows like n log n, and no
+ * allocation that fails does harm. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -25,7 +25,7 @@ static int by_pair(const void *a, const void *b)
 
 static bool contains(int (*pairs)[2], int count, const int pair[2])
 {
-    return bsearch(pair, pairs, (size_t)count, sizeof *pairs, by_pair) != NULL;
+    return count > 0 && bsearch(pair, pairs, (size_t)count, sizeof *pairs, by_pair) != NULL;
 }
 
 /* What a search is asked, and its answer, sorted. */
@@ -42,14 +42,15 @@ static void find(search *q, int threads)
 {
     cipc_broad_phase *b;
     assert_int_equal(cipc_broad_phase_create(&b, q->s->model, NULL), CIPC_OK);
-    assert_int_equal(cipc_broad_phase_find(b, q->s->model, q->s->x, q->p, q->t_max, q->reach, q->is_dirichlet, threads, &q->found, NULL), CIPC_OK);
+    assert_int_equal(cipc_broad_phase_find(b, q->s->model, q->s->x, q->p, q->t_max, q->reach, q->is_dirichlet, threads, &q->found, NULL),
+                     CIPC_OK);
     cipc_broad_phase_destroy(b);
 }
 
 static void sort(cipc_candidates *c)
 {
-    qsort(c->point_triangle, (size_t)c->point_triangle_count, sizeof *c->point_triangle, by_pair);
-    qsort(c->edge_edge, (size_t)c->edge_edge_count, sizeof *c->edge_edge, by_pair);
+    if (c->point_triangle_count > 0) qsort(c->point_triangle, (size_t)c->point_triangle_count, sizeof *c->point_triangle, by_pair);
+    if (c->edge_edge_count > 0) qsort(c->edge_edge, (size_t)c->edge_edge_count, sizeof *c->edge_edge, by_pair);
 }
 
 static bool found(const search *q, bool edge_edge, const int pair[2])
@@ -65,8 +66,10 @@ static void must_find_close_pair(void *context, bool edge_edge, const int pair[2
     search *q = context;
     for (int i = 0; i < (q->p ? PLACES : 1); i++) {
         double y[12];
-        if (q->p) soup_moved_stencil(q->s->x, q->p, q->t_max * i / (PLACES - 1), nodes, y);
-        else soup_stencil(q->s->x, nodes, y);
+        if (q->p)
+            soup_moved_stencil(q->s->x, q->p, q->t_max * i / (PLACES - 1), nodes, y);
+        else
+            soup_stencil(q->s->x, nodes, y);
         if (soup_box_distance(edge_edge, y) > 1.001 * (xi + q->reach)) continue;
         if (cipc_exact_gap(edge_edge, y, xi) > q->reach) continue;
         if (!found(q, edge_edge, pair)) fail_msg("lost: %s %d %d", edge_edge ? "edges" : "node and triangle", pair[0], pair[1]);
@@ -101,8 +104,10 @@ static void count_pair_by_box(void *context, bool edge_edge, const int pair[2], 
     static const double ROUNDING_MARGIN = 0x1p-38;
     search *q = context;
     double apart = swept_box_distance(q, edge_edge, nodes), limit = xi + q->reach;
-    if (apart > limit + ROUNDING_MARGIN) assert_false(found(q, edge_edge, pair));
-    else q->close++;
+    if (apart > limit + ROUNDING_MARGIN)
+        assert_false(found(q, edge_edge, pair));
+    else
+        q->close++;
 }
 
 static void assert_no_duplicates(int (*pairs)[2], int count)
@@ -190,36 +195,69 @@ static void test_far_from_the_origin(void **state)
     soup_destroy(&s);
 }
 
+/* A triangle at z = 0 below another one, of which only the first node comes near it, at height z. The first is 0.25 thick, the second
+ * 0.75. */
+static soup stack(double z)
+{
+    static const double gravity[3] = {0};
+    const double low[] = {0, 0, 0, 4, 0, 0, 0, 4, 0}, high[] = {1, 1, z, 5, 1, z + 9, 1, 5, z + 9};
+    const int triangle[1][3] = {{0, 1, 2}};
+    cipc_body_description d[2];
+    for (int b = 0; b < 2; b++) {
+        d[b] = (cipc_body_description){.name = "t", .material = {.density = 1, .thickness = 1}, .node_count = 3, .triangle_count = 1};
+        d[b].offset = b ? 0.75 : 0.25;
+        d[b].rest = d[b].position = b ? high : low;
+        d[b].triangles = triangle;
+    }
+    soup s = {.x = cipc_alloc(18, sizeof(double)), .p = cipc_alloc(18, sizeof(double))};
+    assert_true(s.x && s.p);
+    assert_int_equal(cipc_model_create(&s.model, d, 2, gravity, NULL), CIPC_OK);
+    memcpy(s.x, low, sizeof low);
+    memcpy(s.x + 9, high, sizeof high);
+    return s;
+}
+
+static int pairs_of_stack(soup *s, const double *p, double reach)
+{
+    search q = {.s = s, .p = p, .t_max = 1, .reach = reach};
+    find(&q, 1);
+    int count = q.found.point_triangle_count;
+    cipc_candidates_free(&q.found);
+    cipc_model_destroy(s->model);
+    cipc_free(s->x);
+    cipc_free(s->p);
+    return count;
+}
+
 /* A node straight above a triangle at exactly xi + reach is found, just beyond it is not. */
 static void test_limit(void **state)
 {
     (void)state;
-    static const double gravity[3] = {0};
-    double low[] = {0, 0, 0, 4, 0, 0, 0, 4, 0}, high[] = {1, 1, 0.75, 5, 1, 9, 1, 5, 9};
-    const int triangle[1][3] = {{0, 1, 2}};
-    cipc_body_description d[2];
-    for (int b = 0; b < 2; b++)
-        d[b] = (cipc_body_description){.name = "t", .material = {.density = 1, .thickness = 1}, .offset = b ? 0.75 : 0.25, .node_count = 3,
-                                       .rest = b ? high : low, .position = b ? high : low, .triangle_count = 1, .triangles = triangle};
-    for (int beyond = 0; beyond < 2; beyond++) {
-        high[2] = 0.75 * (1 + beyond * 0x1p-30);
-        soup s = {.x = cipc_alloc(18, sizeof(double))};
-        assert_int_equal(cipc_model_create(&s.model, d, 2, gravity, NULL), CIPC_OK);
-        memcpy(s.x, low, sizeof low);
-        memcpy(s.x + 9, high, sizeof high);
-        search q = {.s = &s, .reach = 0.25}; /* xi = (0.25 + 0.75) / 2 */
-        find(&q, 1);
-        assert_int_equal(q.found.point_triangle_count, !beyond);
-        cipc_candidates_free(&q.found);
-        cipc_model_destroy(s.model);
-        cipc_free(s.x);
+    soup at = stack(0.75), beyond = stack(0.75 * (1 + 0x1p-30)); /* xi = (0.25 + 0.75) / 2 */
+    assert_int_equal(pairs_of_stack(&at, NULL, 0.25), 1);
+    assert_int_equal(pairs_of_stack(&beyond, NULL, 0.25), 0);
+}
+
+/* An ulp apart, and approaching by 0.98 of it, which neither end of the two paths shows in doubles. */
+static void test_motion_below_an_ulp(void **state)
+{
+    (void)state;
+    static const double HEIGHT = 0x1p23, ULP = 0x1p-29;
+    soup s = stack(9);
+    for (int b = 0; b < 2; b++) s.model->bodies[b].offset = 0;
+    for (int i = 0; i < 6; i++) {
+        s.x[3 * i + 2] = HEIGHT + (i < 3 ? 0 : i == 3 ? ULP : 9);
+        s.p[3 * i + 2] = i < 3 ? 0.49 * ULP : -0.49 * ULP;
+        assert_true(s.x[3 * i + 2] + s.p[3 * i + 2] == s.x[3 * i + 2]);
     }
+    assert_int_equal(pairs_of_stack(&s, s.p, 0.9 * ULP), 1);
 }
 
 static void assert_same(const cipc_candidates *a, const cipc_candidates *b)
 {
     assert_int_equal(a->point_triangle_count, b->point_triangle_count);
     assert_int_equal(a->edge_edge_count, b->edge_edge_count);
+    assert_true(a->point_triangle_count > 0 && a->edge_edge_count > 0);
     assert_memory_equal(a->point_triangle, b->point_triangle, (size_t)a->point_triangle_count * sizeof *a->point_triangle);
     assert_memory_equal(a->edge_edge, b->edge_edge, (size_t)a->edge_edge_count * sizeof *a->edge_edge);
 }
@@ -305,7 +343,8 @@ static double tree_cost(const soup *s)
 }
 
 /* A crumpled sheet of ever more cells of one size. Every node has about as many neighbours, so the answers grow like n (a sheet's
- * border, with fewer, is a quarter of the nodes of the smallest), and the box tests like n log n. If either were quadratic, it would grow 64-fold. */
+ * border, with fewer, is a quarter of the nodes of the smallest), and the box tests like n log n. If either were quadratic, it would
+ * grow 64-fold. */
 #define MOST_GROWTH 1.5
 static void test_cost_grows_like_n_log_n(void **state)
 {
@@ -355,13 +394,16 @@ static cipc_status find_failing(cipc_broad_phase *b, const search *q, long n, ci
     fail_allocation(n);
     cipc_status status = cipc_broad_phase_find(b, q->s->model, q->s->x, q->p, q->t_max, q->reach, NULL, 1, c, &error);
     if (allocation_failed()) assert_int_equal(status, CIPC_E_OUT_OF_MEMORY);
-    if (allocation_failed()) assert_int_equal(error.status, CIPC_E_OUT_OF_MEMORY);
-    else assert_int_equal(status, CIPC_OK);
+    if (allocation_failed())
+        assert_int_equal(error.status, CIPC_E_OUT_OF_MEMORY);
+    else
+        assert_int_equal(status, CIPC_OK);
     fail_allocation(0);
     return status;
 }
 
-/* After any failure - of the trees, of the pieces, of the answer, in the first search or in the one that rebuilds - the next search is right. */
+/* After any failure - of the trees, of the pieces, of the answer, in the first search or in the one that rebuilds - the next search is
+ * right. */
 static void test_find_out_of_memory(void **state)
 {
     (void)state;
@@ -398,6 +440,7 @@ int main(void)
         cmocka_unit_test(test_dirichlet_filter),
         cmocka_unit_test(test_far_from_the_origin),
         cmocka_unit_test(test_limit),
+        cmocka_unit_test(test_motion_below_an_ulp),
         cmocka_unit_test(test_order_does_not_depend_on_threads),
         cmocka_unit_test(test_order_does_not_depend_on_the_past),
         cmocka_unit_test(test_cost_grows_like_n_log_n),

@@ -30,7 +30,8 @@ static void keep_apart(void *context, bool edge_edge, const int pair[2], const i
 static cipc_candidates all_candidates(const soup *s)
 {
     size_t nodes = (size_t)s->model->node_count, triangles = (size_t)s->model->triangle_count, edges = (size_t)s->model->edge_count;
-    cipc_candidates c = {.point_triangle = cipc_alloc(nodes * triangles, 2 * sizeof(int)), .edge_edge = cipc_alloc(edges * edges / 2, 2 * sizeof(int))};
+    cipc_candidates c = {.point_triangle = cipc_alloc(nodes * triangles, 2 * sizeof(int)),
+                         .edge_edge = cipc_alloc(edges * edges / 2, 2 * sizeof(int))};
     assert_true(c.point_triangle && c.edge_edge);
     const void *context[2] = {s, &c};
     visit_all_pairs(s->model, s->is_dirichlet, keep_apart, context);
@@ -92,7 +93,8 @@ static answer plain(const trial *t)
     bool any = false;
     for (int i = 0; i < c->point_triangle_count + c->edge_edge_count; i++) {
         bool edge_edge = i >= c->point_triangle_count;
-        const int *pair = edge_edge ? c->edge_edge[i - c->point_triangle_count] : c->point_triangle[i], *v = edge_edge ? NULL : m->triangles[pair[1]];
+        const int *pair = edge_edge ? c->edge_edge[i - c->point_triangle_count] : c->point_triangle[i],
+                  *v = edge_edge ? NULL : m->triangles[pair[1]];
         const int nodes[4] = {edge_edge ? m->edges[pair[0]][0] : pair[0], edge_edge ? m->edges[pair[0]][1] : v[0],
                               edge_edge ? m->edges[pair[1]][0] : v[1], edge_edge ? m->edges[pair[1]][1] : v[2]};
         double y[12], q[12], xi = cipc_model_pair_offset(m, nodes[0], nodes[2]);
@@ -126,7 +128,7 @@ static void test_is_the_least_of_all_pairs(void **state)
         soup_shape shape = soup_shape_default();
         shape.cells = 3;
         shape.motion = seed % 4 ? 0.02 * seed : 1e-3;
-        shape.offset = seed % 2 ? 0 : 1e-4;
+        shape.offset = seed % 2 ? 0.02 : 1e-4;
         soup s = soup_create(&shape, (uint64_t)(300 + seed));
         cipc_candidates c = all_candidates(&s);
         trial t = {.s = &s, .candidates = &c, .t_max = seed % 3 ? 1 : 0.4, .options = cipc_ccd_options_default()};
@@ -184,36 +186,89 @@ static void test_way_is_free(void **state)
     }
 }
 
-/* A sheet that falls on another one, both flat: all pairs that face each other hit at (1 - s)(d - xi)/P. */
+/* A triangle of height 1 above another one falls at speed 2; its second node is lower by `tilt`. */
+static soup facing(double tilt, double offset, double x[18], double p[18])
+{
+    static const double gravity[3] = {0};
+    const double nodes[2][9] = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 1, 1, 0, 1 - tilt, 0, 1, 1}};
+    const int triangle[1][3] = {{0, 1, 2}};
+    cipc_body_description d[2];
+    for (int b = 0; b < 2; b++) {
+        d[b] = (cipc_body_description){.name = "t", .material = {.density = 1, .thickness = 1}, .node_count = 3, .triangle_count = 1};
+        d[b].offset = (1 + b) * offset;
+        d[b].rest = d[b].position = nodes[b];
+        d[b].triangles = triangle;
+    }
+    soup s = {.x = x, .p = p};
+    assert_int_equal(cipc_model_create(&s.model, d, 2, gravity, NULL), CIPC_OK);
+    memcpy(x, nodes, sizeof nodes);
+    for (int i = 0; i < 18; i++) p[i] = i > 9 && i % 3 == 2 ? -2 : 0;
+    return s;
+}
+
+/* All pairs that face each other hit at (1 - s)(d - xi)/P, unless the path ends before. */
 static void test_known_answer(void **state)
 {
     (void)state;
-    static const double gravity[3] = {0}, nodes[2][9] = {{0, 0, 0, 1, 0, 0, 0, 1, 0}, {0, 0, 1, 1, 0, 1, 0, 1, 1}};
     static const double ROUNDINGS = 64 * UNIT_ROUNDOFF;
-    const int triangle[1][3] = {{0, 1, 2}};
-    cipc_body_description d[2];
-    for (int b = 0; b < 2; b++)
-        d[b] = (cipc_body_description){.name = "t", .material = {.density = 1, .thickness = 1}, .offset = b ? 0.5 : 0.25, .node_count = 3,
-                                       .rest = nodes[b], .position = nodes[b], .triangle_count = 1, .triangles = triangle};
-    double x[18], p[18] = {0};
-    memcpy(x, nodes, sizeof x);
-    for (int i = 3; i < 6; i++) p[3 * i + 2] = -2;
-    soup s = {.x = x, .p = p};
-    assert_int_equal(cipc_model_create(&s.model, d, 2, gravity, NULL), CIPC_OK);
-    cipc_candidates c = all_candidates(&s);
+    double x[18], p[18], want = 0.9 * (1 - 0.375) / 2;
+    soup s = facing(0, 0.25, x, p);
+    cipc_candidates c = all_candidates(&s), empty = {0};
     trial t = {.s = &s, .candidates = &c, .t_max = 1, .options = cipc_ccd_options_default()};
-    double want = 0.9 * (1 - 0.375) / 2;
+    assert_true(fabs(solve(&t, 2).t - want) <= ROUNDINGS * want);
+    t.t_max = 0.4; /* closer than xi, but not yet at d = 0 */
     assert_true(fabs(solve(&t, 2).t - want) <= ROUNDINGS * want);
     /* the limiting pair need not be asked for */
     assert_true(cipc_candidates_ccd(s.model, &c, x, p, 1, &t.options, 1, NULL, NULL) == solve(&t, 1).t);
     t.t_max = 0.25;
     answer none = solve(&t, 2);
     assert_true(none.t == 0.25 && none.nodes[0] == -1 && none.nodes[3] == -1 && !none.edge_edge);
-    cipc_candidates empty = {0};
     t.candidates = &empty;
     assert_true(solve(&t, 2).t == 0.25);
     cipc_candidates_free(&c);
     cipc_model_destroy(s.model);
+}
+
+/* The second pair's gap, and that of its box, is as large as the first pair's step, its own step is smaller: it must not be passed over. */
+static void test_a_later_pair_may_be_earlier(void **state)
+{
+    (void)state;
+    double x[18], p[18];
+    soup s = facing(0.05, 0, x, p);
+    cipc_candidates c = all_candidates(&s);
+    trial t = {.s = &s, .candidates = &c, .t_max = 1, .options = cipc_ccd_options_default()};
+    answer want = plain(&t), got = solve(&t, 1);
+    assert_same(&got, &want);
+    assert_int_equal(want.nodes[0], 1);
+    cipc_candidates_free(&c);
+    cipc_model_destroy(s.model);
+}
+
+/* Two flat sheets with some hundred pairs that all hit at the same time: the first of the list is named, by any thread. */
+static void test_ties_go_to_the_first(void **state)
+{
+    (void)state;
+    soup_shape shape = {.sheets = 2, .cells = 8, .size = 1};
+    soup s = soup_create(&shape, 361);
+    int n = s.model->node_count / 2;
+    for (int i = 0; i < n; i++)
+        for (int b = 0; b < 2; b++) {
+            double *x = s.x + 3 * (b * n + i);
+            x[0] = 0.125 * (i % 9), x[1] = 0.125 * (i / 9), x[2] = b;
+            s.p[3 * (b * n + i) + 2] = b ? -2 : 0;
+        }
+    cipc_candidates c = all_candidates(&s);
+    trial t = {.s = &s, .candidates = &c, .t_max = 1, .options = cipc_ccd_options_default()};
+    answer want = plain(&t);
+    assert_true(fabs(want.t - 0.45) <= 64 * UNIT_ROUNDOFF && !want.edge_edge);
+    assert_int_equal(want.nodes[0], 0);
+    for (int repeat = 0; repeat < 20; repeat++)
+        for (int threads = 1; threads <= 3; threads++) {
+            answer got = solve(&t, threads);
+            assert_same(&got, &want);
+        }
+    cipc_candidates_free(&c);
+    soup_destroy(&s);
 }
 
 int main(void)
@@ -222,6 +277,8 @@ int main(void)
         cmocka_unit_test(test_is_the_least_of_all_pairs),
         cmocka_unit_test(test_way_is_free),
         cmocka_unit_test(test_known_answer),
+        cmocka_unit_test(test_a_later_pair_may_be_earlier),
+        cmocka_unit_test(test_ties_go_to_the_first),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,5 +1,5 @@
-/* The active set against all pairs one by one: which are active, what they weigh, what merging keeps, when edges are mollified; the smallest
- * gap; and equality for any number of threads. */
+/* The active set against all pairs one by one: which are active, what they weigh, what merging keeps, when edges are mollified; the
+ * smallest gap; and equality for any number of threads. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -24,8 +24,8 @@
 /* A sum of up to some thousand weights of size one. */
 static const double WEIGHT_ROUNDING = 1e4 * UNIT_ROUNDOFF;
 
-/* Distances in these scenes are good to 32 u of lengths below 4, and all gaps of the energy test are above 1e-4. b(D) varies by at most about
- * 1/D per unit of D, D >= 2 xi 1e-4 with xi near 1e-2: 32 u 4 / 2e-6 is 7e-9 for the worst pair. */
+/* Distances in these scenes are good to 32 u of lengths below 4, and all gaps of the energy test are above 1e-4. b(D) varies by at most
+ * about 1/D per unit of D, D >= 2 xi 1e-4 with xi near 1e-2: 32 u 4 / 2e-6 is 7e-9 for the worst pair. */
 static const double ENERGY_ROUNDING = 1e-8;
 
 /* ---- The plain form: one pair after the other. ---- */
@@ -89,13 +89,15 @@ static void add_pair(void *context, bool edge_edge, const int pair[2], const int
     memcpy(edge_edge ? c->edge_edge[c->edge_edge_count++] : c->point_triangle[c->point_triangle_count++], pair, 2 * sizeof(int));
     if (p.gap >= dhat) return;
     if (set->options.area_weights)
-        p.weight = edge_edge ? 0.5 * (m->edge_area[pair[0]] + m->edge_area[pair[1]]) / set->mean_edge_area : m->node_area[nodes[0]] / set->mean_node_area;
+        p.weight = edge_edge ? 0.5 * (m->edge_area[pair[0]] + m->edge_area[pair[1]]) / set->mean_edge_area
+                             : m->node_area[nodes[0]] / set->mean_node_area;
     classify(&p, edge_edge, y, nodes, set->options.merge_directed);
     cipc_exact_compare_distance(edge_edge, y, xi, &distance2);
     cipc_barrier(distance2 - xi * xi, dhat * dhat + 2 * xi * dhat, b);
     p.value = STIFFNESS * p.weight * b[0];
     if (edge_edge) {
-        double sine2 = cross2(y) / (length2(m->rest, nodes[0], nodes[1]) * length2(m->rest, nodes[2], nodes[3])), ratio = sine2 / MOLLIFIED_SINE2;
+        double sine2 = cross2(y) / (length2(m->rest, nodes[0], nodes[1]) * length2(m->rest, nodes[2], nodes[3])),
+               ratio = sine2 / MOLLIFIED_SINE2;
         p.mollified = ratio < 1;
         if (p.mollified) p.value *= ratio * (2 - ratio);
         if (p.mollified) p.energy = CIPC_ENERGY_BARRIER_EDGE_EDGE;
@@ -148,7 +150,10 @@ static bool stands_for(const cipc_contact *c, const plain_pair *p)
     return c->energy == p->energy && memcmp(c->nodes, p->nodes, sizeof p->nodes) == 0 && (c->barrier.mollifier_eps > 0) == p->mollified;
 }
 
-static double relative(double got, double want) { return fabs(got - want) / fabs(want); }
+static double relative(double got, double want)
+{
+    return fabs(got - want) / fabs(want);
+}
 
 /* Every contact is the sum of exactly the plain pairs on its nodes, and every plain pair is in one. Returns how many were merged away. */
 static int assert_equals_plain(const cipc_contact_set *set, const plain_set *want)
@@ -246,8 +251,9 @@ static void test_pairs_in_contact_are_active(void **state)
 static bool same_contact(const cipc_contact *a, const cipc_contact *b)
 {
     const cipc_contact_barrier *p = &a->barrier, *q = &b->barrier;
-    return a->energy == b->energy && a->count == b->count && memcmp(a->nodes, b->nodes, sizeof a->nodes) == 0 && a->multiplicity == b->multiplicity &&
-           memcmp(&p->stiffness, &q->stiffness, offsetof(cipc_contact_barrier, feature)) == 0 && memcmp(&p->feature, &q->feature, sizeof p->feature) == 0;
+    return a->energy == b->energy && a->count == b->count && memcmp(a->nodes, b->nodes, sizeof a->nodes) == 0 &&
+           a->multiplicity == b->multiplicity && memcmp(&p->stiffness, &q->stiffness, offsetof(cipc_contact_barrier, feature)) == 0 &&
+           memcmp(&p->feature, &q->feature, sizeof p->feature) == 0;
 }
 
 static void assert_same_set(const cipc_contact_set *a, const cipc_contact_set *b)
@@ -297,8 +303,13 @@ static two_triangles two(const double a[9], const double b[9], bool edge_edge)
     const int triangle[1][3] = {{0, 1, 2}};
     cipc_body_description d[2];
     for (int i = 0; i < 2; i++)
-        d[i] = (cipc_body_description){.name = "t", .material = {.density = 1, .thickness = 1}, .node_count = 3, .rest = i ? b : a,
-                                       .position = i ? b : a, .triangle_count = 1, .triangles = triangle};
+        d[i] = (cipc_body_description){.name = "t",
+                                       .material = {.density = 1, .thickness = 1},
+                                       .node_count = 3,
+                                       .rest = i ? b : a,
+                                       .position = i ? b : a,
+                                       .triangle_count = 1,
+                                       .triangles = triangle};
     two_triangles t = {.pair = cipc_alloc(1, 2 * sizeof(int))};
     assert_int_equal(cipc_model_create(&t.model, d, 2, gravity, NULL), CIPC_OK);
     memcpy(t.x, a, 9 * sizeof *a);
@@ -363,9 +374,12 @@ static void test_mollifier_threshold(void **state)
 {
     (void)state;
     const double threshold = sqrt(MOLLIFIED_SINE2);
-    const struct { double sine, stretch; bool mollified; } cases[] = {
-        {1, 1, false},  {0.5, 1, false}, {1.001 * threshold, 1, false}, {0.999 * threshold, 1, true},
-        {1e-3, 1, true}, {0, 1, true},   {0.6 * threshold, 2, false},    {1.5 * threshold, 0.5, true},
+    const struct {
+        double sine, stretch;
+        bool mollified;
+    } cases[] = {
+        {1, 1, false},   {0.5, 1, false}, {1.001 * threshold, 1, false}, {0.999 * threshold, 1, true},
+        {1e-3, 1, true}, {0, 1, true},    {0.6 * threshold, 2, false},   {1.5 * threshold, 0.5, true},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         cipc_contact_set set = crossing(cases[i].sine, cases[i].stretch);

@@ -24,7 +24,8 @@ static const double start[3 * NODES] = {1, 0, 0, 0, 2, 0, 0, 0, 3, 1, 1, 1};
 /* Sets need the number of nodes only. */
 static void add(cipc_model *m, const int *nodes, int count, double release, const cipc_motion *motions, int motion_count)
 {
-    cipc_dirichlet_set set = {.node_count = count, .nodes = (int *)nodes, .release = release, .motions = (cipc_motion *)motions, .motion_count = motion_count};
+    cipc_dirichlet_set set = {
+        .node_count = count, .nodes = (int *)nodes, .release = release, .motions = (cipc_motion *)motions, .motion_count = motion_count};
     assert_int_equal(cipc_model_add_dirichlet(m, &set, NULL), CIPC_OK);
 }
 
@@ -99,9 +100,11 @@ static void test_fixed_nodes(void **state)
 static void test_partial_steps(void **state)
 {
     (void)state;
-    const struct { double begin, end, moved; } cases[] = {
-        {-1, INFINITY, 0.5}, {2, 2.5, 0.5}, {0, 9, 0.5},     {2.125, 9, 0.375}, {-1, 2.25, 0.25},
-        {2.125, 2.25, 0.125}, {2.5, 9, 0},  {-1, 2, 0}, {3, 4, 0},         {-2, -1, 0},
+    const struct {
+        double begin, end, moved;
+    } cases[] = {
+        {-1, INFINITY, 0.5},  {2, 2.5, 0.5}, {0, 9, 0.5}, {2.125, 9, 0.375}, {-1, 2.25, 0.25},
+        {2.125, 2.25, 0.125}, {2.5, 9, 0},   {-1, 2, 0},  {3, 4, 0},         {-2, -1, 0},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         cipc_model m = {.node_count = NODES};
@@ -173,7 +176,8 @@ static void test_rotation_is_exact(void **state)
     (void)state;
     enum { STEPS = 1000 };
     const double h = 0.01, c[3] = {0.5, -1, 2};
-    cipc_motion motion = {.begin = 0, .end = INFINITY, .center = {c[0], c[1], c[2]}, .axis = {1, 2, 2}, .angular_velocity = 2 * PI / (STEPS * h)};
+    cipc_motion motion = {
+        .begin = 0, .end = INFINITY, .center = {c[0], c[1], c[2]}, .axis = {1, 2, 2}, .angular_velocity = 2 * PI / (STEPS * h)};
     cipc_model m = {.node_count = NODES};
     const int nodes[] = {0, 1, 2, 3};
     add(&m, nodes, NODES, INFINITY, &motion, 1);
@@ -234,7 +238,9 @@ static void test_last_set_wins(void **state)
     add(&m, first, 3, INFINITY, &motions[0], 1);
     add(&m, second, 2, 5, &motions[1], 1);
     add(&m, third, 1, 7, NULL, 0);
-    const struct { double time, way[NODES]; } cases[] = {{0, {1, 2, 0, 0}}, {5, {1, 1, 0, 0}}, {7, {1, 1, 1, 0}}};
+    const struct {
+        double time, way[NODES];
+    } cases[] = {{0, {1, 2, 0, 0}}, {5, {1, 1, 0, 0}}, {7, {1, 1, 1, 0}}};
     for (int c = 0; c < 3; c++) {
         targets t = targets_of(&m, cases[c].time, 1);
         for (int i = 0; i < NODES; i++) {
@@ -252,17 +258,27 @@ static void test_bad_sets(void **state)
     int good_nodes[] = {0}, too_high[] = {0, NODES}, negative[] = {-1};
     cipc_model m = {.node_count = NODES};
     cipc_error error;
-    cipc_dirichlet_set none = {.nodes = good_nodes, .release = INFINITY}, high = {.nodes = too_high, .node_count = 2}, low = {.nodes = negative, .node_count = 1};
+    cipc_dirichlet_set none = {.nodes = good_nodes, .release = INFINITY}, high = {.nodes = too_high, .node_count = 2},
+                       low = {.nodes = negative, .node_count = 1};
     assert_int_equal(cipc_model_add_dirichlet(&m, &none, &error), CIPC_E_OUT_OF_RANGE);
     assert_int_equal(cipc_model_add_dirichlet(&m, &high, &error), CIPC_E_OUT_OF_RANGE);
     assert_non_null(strstr(error.what, "node 4"));
     assert_int_equal(cipc_model_add_dirichlet(&m, &low, &error), CIPC_E_OUT_OF_RANGE);
     cipc_motion motion;
     cipc_dirichlet_set set = {.nodes = good_nodes, .node_count = 1, .motions = &motion, .motion_count = 1};
-    const struct { double *number; double bad; const char *what; } cases[] = {
-        {&motion.velocity[1], NAN, "not finite"},      {&motion.center[2], INFINITY, "not finite"}, {&motion.axis[0], NAN, "not finite"},
-        {&motion.angular_velocity, NAN, "not finite"}, {&motion.begin, -INFINITY, "not finite"},    {&motion.end, NAN, "not after"},
-        {&motion.end, 1, "not after"},                 {&motion.axis[2], 0, "axis"},
+    const struct {
+        double *number;
+        double bad;
+        const char *what;
+    } cases[] = {
+        {&motion.velocity[1], NAN, "not finite"},
+        {&motion.center[2], INFINITY, "not finite"},
+        {&motion.axis[0], NAN, "not finite"},
+        {&motion.angular_velocity, NAN, "not finite"},
+        {&motion.begin, -INFINITY, "not finite"},
+        {&motion.end, NAN, "not after"},
+        {&motion.end, 1, "not after"},
+        {&motion.axis[2], 0, "axis"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         motion = (cipc_motion){.begin = 1, .end = 2, .axis = {0, 0, 1}, .angular_velocity = 1};

@@ -29,7 +29,8 @@ static double there_and_back(double value)
 static void test_same_bits_back(void **state)
 {
     (void)state;
-    const double values[] = {0.0, -0.0, 1.0, 0.1, -1.0 / 3, DBL_MAX, -DBL_MAX, DBL_MIN, DBL_TRUE_MIN, 1e22, 123456789012345678.0, INFINITY, -INFINITY};
+    const double values[] = {0.0,      -0.0,     1.0, 0.1, -1.0 / 3, DBL_MAX, -DBL_MAX, DBL_MIN, DBL_TRUE_MIN, 1e22, 123456789012345678.0,
+                             INFINITY, -INFINITY};
     for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
         const double back = there_and_back(values[i]);
         assert_memory_equal(&back, &values[i], sizeof back);

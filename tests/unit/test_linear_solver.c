@@ -75,7 +75,7 @@ static void assert_solves(cipc_linear_solver *solver, const cipc_block_matrix *A
     random_fill(seed, b, 3 * A->n, 1);
     assert_int_equal(cipc_linear_solver_factorize(solver, A, 1, &definite, NULL), CIPC_OK);
     assert_true(definite);
-    assert_int_equal(cipc_linear_solver_solve(solver, b, x, NULL), CIPC_OK);
+    assert_int_equal(cipc_linear_solver_solve(solver, b, x, 1, NULL), CIPC_OK);
     assert_true(solves(A, x, b));
     x[1] += 1e-6;
     assert_false(solves(A, x, b));
@@ -124,7 +124,7 @@ static void test_empty(void **state)
     assert_int_equal(cipc_linear_solver_analyze(solver, &A, NULL), CIPC_OK);
     assert_int_equal(cipc_linear_solver_factorize(solver, &A, 1, &definite, NULL), CIPC_OK);
     assert_true(definite);
-    assert_int_equal(cipc_linear_solver_solve(solver, &nothing, &nothing, NULL), CIPC_OK);
+    assert_int_equal(cipc_linear_solver_solve(solver, &nothing, &nothing, 1, NULL), CIPC_OK);
     cipc_block_matrix_free(&A);
     cipc_linear_solver_destroy(solver);
 }
@@ -167,7 +167,7 @@ static void test_threads(void **state)
         assert_int_equal(cipc_linear_solver_create(&solver, NULL), CIPC_OK);
         assert_int_equal(cipc_linear_solver_analyze(solver, &A, NULL), CIPC_OK);
         assert_int_equal(cipc_linear_solver_factorize(solver, &A, threads, &definite, NULL), CIPC_OK);
-        assert_int_equal(cipc_linear_solver_solve(solver, b, x[threads - 1], NULL), CIPC_OK);
+        assert_int_equal(cipc_linear_solver_solve(solver, b, x[threads - 1], 1, NULL), CIPC_OK);
         assert_memory_equal(x[0], x[threads - 1], sizeof b);
         cipc_block_matrix_free(&A);
         cipc_linear_solver_destroy(solver);
@@ -208,7 +208,7 @@ static cipc_status whole_use(const cipc_block_matrix *A, const double *b, double
     cipc_status status = cipc_linear_solver_create(&solver, error);
     if (!status) *reached = ANALYZE, status = cipc_linear_solver_analyze(solver, A, error);
     if (!status) *reached = FACTORIZE, status = cipc_linear_solver_factorize(solver, A, 1, &definite, error);
-    if (!status) *reached = SOLVE, status = cipc_linear_solver_solve(solver, b, x, error);
+    if (!status) *reached = SOLVE, status = cipc_linear_solver_solve(solver, b, x, 1, error);
     cipc_linear_solver_destroy(solver);
     return status;
 }

@@ -1,5 +1,5 @@
-/* Edges and hinges of triangle meshes: unique and ordered edges, flat hinges of angle 0 whatever the triangles' orientation, none at borders and
- * where three triangles meet. */
+/* Edges and hinges of triangle meshes: unique and ordered edges, flat hinges of angle 0 whatever the triangles' orientation, none at
+ * borders and where three triangles meet. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -62,7 +62,8 @@ static void test_square(void **state)
     free_topology(&m);
 }
 
-/* All four ways to orient the two triangles, and all rotations of their nodes: flat is 0, and a fold down of the fourth node has one size. */
+/* All four ways to orient the two triangles, and all rotations of their nodes: flat is 0, and a fold down of the fourth node has one
+ * size. */
 static void test_flat_is_zero_for_every_orientation(void **state)
 {
     (void)state;

@@ -27,8 +27,16 @@ static const int corner_triangle[1][3] = {{0, 1, 2}};
 static cipc_body_description describe(const char *name, const double *nodes, int node_count, const int (*triangles)[3], int triangle_count)
 {
     cipc_body_description d = {
-        .material = {.density = 500, .thickness = 0.002, .membrane = CIPC_MEMBRANE_NEO_HOOKEAN, .membrane_young = 1e5, .membrane_poisson = 0.3,
-                     .bending_young = 1e5, .bending_poisson = 0.3, .strain_limit = 1.1, .strain_activation = 1, .strain_stiffness = 1e3},
+        .material = {.density = 500,
+                     .thickness = 0.002,
+                     .membrane = CIPC_MEMBRANE_NEO_HOOKEAN,
+                     .membrane_young = 1e5,
+                     .membrane_poisson = 0.3,
+                     .bending_young = 1e5,
+                     .bending_poisson = 0.3,
+                     .strain_limit = 1.1,
+                     .strain_activation = 1,
+                     .strain_stiffness = 1e3},
         .offset = 0.01,
         .friction = 0.4,
         .node_count = node_count,
@@ -162,7 +170,11 @@ static void test_numbers_out_of_range(void **state)
 {
     (void)state;
     cipc_body_description d;
-    const struct { double *number; double bad; const char *name; } cases[] = {
+    const struct {
+        double *number;
+        double bad;
+        const char *name;
+    } cases[] = {
         {&d.material.density, 0, "density"},
         {&d.material.density, NAN, "density"},
         {&d.material.thickness, -1, "thickness"},
@@ -222,10 +234,16 @@ static void test_bad_meshes(void **state)
 {
     (void)state;
     const double in_line[] = {0, 0, 0, 1, 1, 1, 3, 3, 3};
-    const struct { const double *nodes; int node_count; int triangle[3]; int triangle_count; const char *what; } cases[] = {
-        {rectangle, 3, {0, 1, 2}, 0, "0 triangles"}, {rectangle, 0, {0, 1, 2}, 1, "0 nodes"},   {rectangle, 3, {0, 1, 3}, 1, "index 3"},
-        {rectangle, 3, {0, -1, 2}, 1, "index -1"},   {rectangle, 3, {0, 1, 1}, 1, "repeats"},   {rectangle, 3, {0, 1, 0}, 1, "repeats"},
-        {rectangle, 3, {2, 2, 1}, 1, "repeats"},     {in_line, 3, {0, 1, 2}, 1, "no area"},     {rectangle, 4, {0, 1, 2}, 1, "node 3"},
+    const struct {
+        const double *nodes;
+        int node_count;
+        int triangle[3];
+        int triangle_count;
+        const char *what;
+    } cases[] = {
+        {rectangle, 3, {0, 1, 2}, 0, "0 triangles"}, {rectangle, 0, {0, 1, 2}, 1, "0 nodes"}, {rectangle, 3, {0, 1, 3}, 1, "index 3"},
+        {rectangle, 3, {0, -1, 2}, 1, "index -1"},   {rectangle, 3, {0, 1, 1}, 1, "repeats"}, {rectangle, 3, {0, 1, 0}, 1, "repeats"},
+        {rectangle, 3, {2, 2, 1}, 1, "repeats"},     {in_line, 3, {0, 1, 2}, 1, "no area"},   {rectangle, 4, {0, 1, 2}, 1, "node 3"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         cipc_body_description d = describe("cloth", cases[i].nodes, cases[i].node_count, &cases[i].triangle, cases[i].triangle_count);

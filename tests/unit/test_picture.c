@@ -54,7 +54,8 @@ static int pixels_of(cairo_surface_t *surface, int left, int top, cipc_colour co
                          pb = cipc_srgb_to_linear((pixel & 255) / 255.0);
             const double brightness = (pr + pg + pb) / (r + g + b);
             const bool lit = brightness > 0.2 && brightness < 1.6;
-            count += lit && fabs(pr - brightness * r) < tolerance && fabs(pg - brightness * g) < tolerance && fabs(pb - brightness * b) < tolerance;
+            count += lit && fabs(pr - brightness * r) < tolerance && fabs(pg - brightness * g) < tolerance &&
+                     fabs(pb - brightness * b) < tolerance;
         }
     }
     return count;

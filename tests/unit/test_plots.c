@@ -21,7 +21,8 @@ static void write_stats(const path *file, int steps)
     FILE *out = fopen(file->text, "w");
     assert_non_null(out);
     for (int i = 1; i <= steps; i++) {
-        cipc_step_report report = {.converged = true, .newton_iterations = 5 + i % 7, .kinetic = 0.1 * i, .gravitational = 3 - 0.1 * i, .elastic = 0.01};
+        cipc_step_report report = {
+            .converged = true, .newton_iterations = 5 + i % 7, .kinetic = 0.1 * i, .gravitational = 3 - 0.1 * i, .elastic = 0.01};
         cipc_step_invariants seen = cipc_step_invariants_none();
         const cipc_invariant_report point = {.min_gap = 1e-3 / i, .max_stretch = 1 + 0.001 * i};
         cipc_step_invariants_add(&seen, &point);
@@ -77,8 +78,10 @@ static void test_odd_statistics(void **state)
         "not json",
         "[1,2]\n{}\n",
         "{\"time\":\"nan\",\"min_gap\":\"inf\",\"max_stretch\":null,\"energy\":{\"kinetic\":\"-inf\"},\"newton_iterations\":null}\n",
-        "{\"time\":0.1,\"min_gap\":\"inf\",\"max_stretch\":\"nan\",\"energy\":null,\"newton_iterations\":3}\n{\"time\":0.2,\"min_gap\":-1}\n",
-        "{\"time\":1,\"min_gap\":0,\"max_stretch\":1e308,\"energy\":{\"kinetic\":1e308,\"total\":-1e308},\"newton_iterations\":0}\n{\"time\":1e308,\"min_gap\":5e-324}",
+        "{\"time\":0.1,\"min_gap\":\"inf\",\"max_stretch\":\"nan\",\"energy\":null,\"newton_iterations\":3}\n{\"time\":0.2,\"min_gap\":-1}"
+        "\n",
+        "{\"time\":1,\"min_gap\":0,\"max_stretch\":1e308,\"energy\":{\"kinetic\":1e308,\"total\":-1e308},\"newton_iterations\":0}\n{"
+        "\"time\":1e308,\"min_gap\":5e-324}",
     };
     cipc_error error;
     const path folder = folder_make(), stats = path_in(&folder, "stats.jsonl"), png = path_in(&folder, "plots.png");

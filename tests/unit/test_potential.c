@@ -88,6 +88,33 @@ static void test_value_and_noise(void **state)
     assert_true(tightest < 1e4); /* ... and is not far from what happens */
 }
 
+/* The bound holds, too, where one kind of term is alone: inertia (nothing else has noise there), and friction of sheets that fly along together, where the
+ * displacements of the nodes cancel. */
+static void test_noise_of_single_terms(void **state)
+{
+    (void)state;
+    for (uint64_t seed = 1; seed <= SEEDS; seed++)
+        for (int slide = 0; slide < 2; slide++) {
+            sheet_scene scene;
+            real x[3 * MOST_NODES], want[REAL_TERMS];
+            make(&scene, seed, &variants[0]);
+            cipc_stepper *s = scene.stepper;
+            for (int g = 0; g < CIPC_GROUP_COUNT; g++) s->groups[g].count = 0;
+            s->contacts.count = 0;
+            if (!slide) s->friction.count = 0;
+            for (int i = 0; i < 3 * scene.model->node_count; i++) s->x_hat[i] = s->x[i] + (slide ? 0 : random_uniform(&seed, -1, 1));
+            for (int i = 0; slide && i < s->friction.count; i++)
+                for (int k = 0; k < 12; k += 3) s->friction.params[i].start[k] -= 1e3 / 3;
+            assert_int_equal(cipc_potential_gradient(s, NULL), CIPC_OK);
+            widen(s->x, 3 * scene.model->node_count, x);
+            real_potential(s, x, want);
+            double error = (double)fabsl(value_at(&scene, s->x).total - want[REAL_TOTAL]);
+            if (!(error <= s->noise)) fail_msg("slide %d, seed %d: rounding error %g, bound %g", slide, (int)seed, error, s->noise);
+            assert_true(s->noise > 0);
+            sheet_scene_free(&scene);
+        }
+}
+
 /* Central differences of the twin with step d: truncation (d / gap)^2 of the stiffest term, 1e-9 here; rounding 2^-64 E / d. Relative to the largest entry. */
 static const real step_of_differences = 1e-7L;
 static const double gradient_tolerance = 1e-7;
@@ -230,7 +257,8 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_scene_is_crowded), cmocka_unit_test(test_value_and_noise), cmocka_unit_test(test_gradient), cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_scene_is_crowded), cmocka_unit_test(test_value_and_noise), cmocka_unit_test(test_noise_of_single_terms),
+        cmocka_unit_test(test_gradient), cmocka_unit_test(test_threads),
         cmocka_unit_test(test_infeasible), cmocka_unit_test(test_fit_stiffness), cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

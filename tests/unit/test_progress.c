@@ -38,7 +38,8 @@ static void test_ordinary_numbers(void **state)
 {
     (void)state;
     const line l = shown(1.25e-4, 1.0456, 65);
-    static const char *const parts[] = {"step 3/100", "t 0.03 s", "newton 12", "contacts 345", "gap 1.25e-04 m", "stretch 1.0456", "left 1:05"};
+    static const char *const parts[] = {"step 3/100",     "t 0.03 s",       "newton 12", "contacts 345",
+                                        "gap 1.25e-04 m", "stretch 1.0456", "left 1:05"};
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) {
         assert_shows(&l, parts[i]);
     }

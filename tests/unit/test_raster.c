@@ -124,7 +124,8 @@ static void test_resolve_averages_light(void **state)
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, SIZE + 4, SIZE + 4);
     cipc_raster_resolve(&r, surface, 3, 2);
     const unsigned char *pixels = cairo_image_surface_get_data(surface);
-    const int stride = cairo_image_surface_get_stride(surface), expected = (int)lround(255 * cipc_linear_to_srgb(1.0 / CIPC_RASTER_SAMPLES));
+    const int stride = cairo_image_surface_get_stride(surface),
+              expected = (int)lround(255 * cipc_linear_to_srgb(1.0 / CIPC_RASTER_SAMPLES));
     assert_int_equal(pixels[2 * stride + 4 * 3], expected);
     assert_int_equal(pixels[(1 + SIZE) * stride + 4 * (2 + SIZE)], expected);
     assert_int_equal(pixels[1 * stride + 4 * 3], 0); /* outside stays as it was */
@@ -162,9 +163,14 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_neighbours_leave_no_crack), cmocka_unit_test(test_nearest_wins_in_any_order), cmocka_unit_test(test_what_cannot_be_seen),
-        cmocka_unit_test(test_brightness_is_interpolated), cmocka_unit_test(test_ink_marks_edges_only), cmocka_unit_test(test_resolve_averages_light),
-        cmocka_unit_test(test_gradient), cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_neighbours_leave_no_crack),
+        cmocka_unit_test(test_nearest_wins_in_any_order),
+        cmocka_unit_test(test_what_cannot_be_seen),
+        cmocka_unit_test(test_brightness_is_interpolated),
+        cmocka_unit_test(test_ink_marks_edges_only),
+        cmocka_unit_test(test_resolve_averages_light),
+        cmocka_unit_test(test_gradient),
+        cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

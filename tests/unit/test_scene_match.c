@@ -7,7 +7,8 @@
 
 #include "output/scene_match.h"
 
-static const char base[] = "{\"time_step\": 0.01, \"steps\": 3, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}";
+static const char base[] =
+    "{\"time_step\": 0.01, \"steps\": 3, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}";
 
 static void assert_matches(const char *other)
 {
@@ -34,18 +35,21 @@ static void test_order_and_layout_do_not_matter(void **state)
 static void test_members_that_change_no_frame(void **state)
 {
     (void)state;
-    assert_matches("{\"time_step\": 0.01, \"steps\": 30, \"title\": \"t\", \"size\": \"ci\", \"sizes\": {}, \"monitor\": {\"enabled\": false}, "
-                   "\"output\": {\"obj\": true}, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}");
+    assert_matches(
+        "{\"time_step\": 0.01, \"steps\": 30, \"title\": \"t\", \"size\": \"ci\", \"sizes\": {}, \"monitor\": {\"enabled\": false}, "
+        "\"output\": {\"obj\": true}, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}");
 }
 
 static void test_first_difference_is_named(void **state)
 {
     (void)state;
-    assert_differs("{\"time_step\": 0.02, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}", "time_step");
+    assert_differs("{\"time_step\": 0.02, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}",
+                   "time_step");
     assert_differs("{\"time_step\": 0.01, \"newton\": {\"tolerance\": 1e-4}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}",
                    "newton.tolerance");
     assert_differs("{\"time_step\": 0.01, \"newton\": {}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}", "newton.tolerance");
-    assert_differs("{\"time_step\": 0.01, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"c\"}]}", "bodies.1.name");
+    assert_differs("{\"time_step\": 0.01, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"c\"}]}",
+                   "bodies.1.name");
     assert_differs("{\"time_step\": 0.01, \"newton\": {\"tolerance\": 1e-3}, \"bodies\": [{\"name\": \"a\"}]}", "bodies.1");
     assert_differs("{\"time_step\": 0.01, \"newton\": 3, \"bodies\": [{\"name\": \"a\"}, {\"name\": \"b\"}]}", "newton");
     assert_differs("[]", "");

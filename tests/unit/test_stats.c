@@ -17,9 +17,21 @@
 /* A report whose fields all differ. */
 static cipc_step_report sample_report(int step)
 {
-    cipc_step_report r = {.converged = true, .newton_iterations = 3 + step, .line_search_halvings = 1, .friction_passes = 2, .factorizations = 4,
-                          .symbolic_analyses = 5, .contacts = 6, .max_contacts = 7 + step, .residual = 1.0 / 3, .barrier_stiffness = 1e3,
-                          .strain_stiffness_factor = 2, .min_gap = 1e-5, .kinetic = 0.5, .gravitational = -0.25, .elastic = 0.125};
+    cipc_step_report r = {.converged = true,
+                          .newton_iterations = 3 + step,
+                          .line_search_halvings = 1,
+                          .friction_passes = 2,
+                          .factorizations = 4,
+                          .symbolic_analyses = 5,
+                          .contacts = 6,
+                          .max_contacts = 7 + step,
+                          .residual = 1.0 / 3,
+                          .barrier_stiffness = 1e3,
+                          .strain_stiffness_factor = 2,
+                          .min_gap = 1e-5,
+                          .kinetic = 0.5,
+                          .gravitational = -0.25,
+                          .elastic = 0.125};
     r.incremental = (cipc_energy_terms){1, 2, 3, 4, 5, 6, 7, 28, 1e-15};
     for (int i = 0; i < CIPC_PHASE_COUNT; i++) {
         r.seconds[i] = 0.5 * (i + 1);
@@ -141,7 +153,8 @@ static void test_worst_of_several_points(void **state)
     (void)state;
     cipc_step_invariants v = cipc_step_invariants_none();
     assert_true(isinf(v.worst.min_gap) && v.points == 0);
-    const cipc_invariant_report a = {.min_gap = 3e-5, .min_gap_nodes = {1, 2, 3, 4}, .max_stretch = 1.2, .max_stretch_triangle = 1, .exact_gap_checks = 1};
+    const cipc_invariant_report a = {
+        .min_gap = 3e-5, .min_gap_nodes = {1, 2, 3, 4}, .max_stretch = 1.2, .max_stretch_triangle = 1, .exact_gap_checks = 1};
     const cipc_invariant_report b = {.min_gap = 1e-5, .min_gap_nodes = {5, 6, 7, 8}, .max_stretch = 1.1, .max_stretch_triangle = 2,
                                      .max_stretch_ratio = 0.5, .exact_gap_checks = 2, .min_gap_is_edge_edge = 1};
     cipc_step_invariants_add(&v, &a);

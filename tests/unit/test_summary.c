@@ -39,7 +39,10 @@ static void assert_verdicts(const cipc_run_summary *s, const char *expected)
     char text[9] = {0};
     for (int i = 1; i <= 8; i++) {
         const char *verdict = cipc_run_summary_verdict(s, i);
-        text[i - 1] = strcmp(verdict, "holds") == 0 ? 'h' : strcmp(verdict, "violated") == 0 ? 'v' : strcmp(verdict, "not checked") == 0 ? '-' : '?';
+        text[i - 1] = strcmp(verdict, "holds") == 0         ? 'h'
+                      : strcmp(verdict, "violated") == 0    ? 'v'
+                      : strcmp(verdict, "not checked") == 0 ? '-'
+                                                            : '?';
     }
     assert_string_equal(text, expected);
 }

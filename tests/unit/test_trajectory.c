@@ -211,7 +211,8 @@ static void test_resume_with_another_scene_is_refused(void **state)
     fixture *f = *state;
     cipc_error error;
     write_frames(f, 2, 2);
-    static const char longer[] = "{\"steps\": 500, \"output\": {\"obj\": true}, \"contact\": {\"dhat\": 0.001}, \"bodies\": [{\"name\": \"cloth\"}]}";
+    static const char longer[] =
+        "{\"steps\": 500, \"output\": {\"obj\": true}, \"contact\": {\"dhat\": 0.001}, \"bodies\": [{\"name\": \"cloth\"}]}";
     static const char other[] = "{\"steps\": 5, \"contact\": {\"dhat\": 0.002}, \"bodies\": [{\"name\": \"cloth\"}]}";
     assert_int_equal(resume_quietly(f, f->run.model, f->run.state, longer, &error), CIPC_OK);
     assert_int_equal(resume_quietly(f, f->run.model, f->run.state, other, &error), CIPC_E_NOT_RESUMABLE);
@@ -437,8 +438,8 @@ static void test_append_cut_short_anywhere(void **state)
 
 /* ---- Refusals of the system ------------------------------------------------------------------------------------------------ */
 
-/* Child: no file may grow beyond `times` the size of the first. Creates, then appends until it is refused; leaves with the number of frames appended
- * that were accepted, or 100 + a number for what went wrong otherwise. */
+/* Child: no file may grow beyond `times` the size of the first. Creates, then appends until it is refused; leaves with the number of frames
+ * appended that were accepted, or 100 + a number for what went wrong otherwise. */
 static void append_within(fixture *f, rlim_t times)
 {
     cipc_error error;

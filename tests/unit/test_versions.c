@@ -15,7 +15,8 @@ static void test_all_are_there(void **state)
 {
     (void)state;
     json_t *versions = cipc_versions();
-    static const char *const names[] = {"cipc", "compiler", "platform", "glibc", "cholmod", "gmp", "mpfr", "gsl", "hdf5", "jansson", "cairo"};
+    static const char *const names[] = {"cipc", "compiler", "platform", "glibc",   "cholmod", "gmp",
+                                        "mpfr", "gsl",      "hdf5",     "jansson", "cairo"};
     assert_int_equal(json_object_size(versions), sizeof names / sizeof names[0]);
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         const char *text = json_string_value(json_object_get(versions, names[i]));

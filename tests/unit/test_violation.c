@@ -18,8 +18,10 @@ static void test_fields(void **state)
     cipc_error error, violation;
     const path folder = folder_make(), file = path_in(&folder, "violation.json");
     const double x[3] = {0, 0, 0};
-    const cipc_accepted_point point = {.x = x, .step = 4, .iteration = 2, .energy_valid = true, .energy_before = 2, .energy_after = NAN, .energy_noise = 1e-9};
-    const cipc_invariant_report report = {.min_gap = -1e-7, .min_gap_nodes = {5, 9, -1, -1}, .max_stretch = 1.01, .max_stretch_triangle = 3};
+    const cipc_accepted_point point = {
+        .x = x, .step = 4, .iteration = 2, .energy_valid = true, .energy_before = 2, .energy_after = NAN, .energy_noise = 1e-9};
+    const cipc_invariant_report report = {
+        .min_gap = -1e-7, .min_gap_nodes = {5, 9, -1, -1}, .max_stretch = 1.01, .max_stretch_triangle = 3};
     cipc_fail(&violation, CIPC_E_VIOLATED_GAP, "step 5", "node 5 is too near");
     assert_int_equal(cipc_violation_write(file.text, &point, 0.04, &report, &violation, &error), CIPC_OK);
     json_t *o = json_load_file(file.text, JSON_REJECT_DUPLICATES, NULL);
@@ -27,10 +29,11 @@ static void test_fields(void **state)
     const char *status, *where, *what, *after;
     int number, steps, iteration, comparable, a, b, edge_edge;
     double time, before, noise, gap;
-    assert_int_equal(json_unpack(o, "{s:s, s:i, s:s, s:s, s:i, s:i, s:F, s:{s:b, s:F, s:s, s:F}, s:{s:F, s:[ii!], s:b}}", "status", &status, "number",
-                                 &number, "where", &where, "what", &what, "steps_taken", &steps, "iteration", &iteration, "time_before", &time, "energy",
-                                 "comparable", &comparable, "before", &before, "after", &after, "noise", &noise, "report", "min_gap", &gap,
-                                 "min_gap_nodes", &a, &b, "min_gap_is_edge_edge", &edge_edge), 0);
+    assert_int_equal(json_unpack(o, "{s:s, s:i, s:s, s:s, s:i, s:i, s:F, s:{s:b, s:F, s:s, s:F}, s:{s:F, s:[ii!], s:b}}", "status", &status,
+                                 "number", &number, "where", &where, "what", &what, "steps_taken", &steps, "iteration", &iteration,
+                                 "time_before", &time, "energy", "comparable", &comparable, "before", &before, "after", &after, "noise",
+                                 &noise, "report", "min_gap", &gap, "min_gap_nodes", &a, &b, "min_gap_is_edge_edge", &edge_edge),
+                     0);
     assert_string_equal(status, "VIOLATED_GAP");
     assert_int_equal(number, 3002);
     assert_string_equal(where, "step 5");

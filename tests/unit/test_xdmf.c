@@ -37,8 +37,8 @@ static void assert_well_formed(const char *text)
     }
     assert_int_equal(depth, 0);
     for (const char *c = strchr(text, '&'); c != NULL; c = strchr(c + 1, '&')) {
-        assert_true(strncmp(c, "&amp;", 5) == 0 || strncmp(c, "&lt;", 4) == 0 || strncmp(c, "&gt;", 4) == 0 || strncmp(c, "&quot;", 6) == 0 ||
-                    strncmp(c, "&apos;", 6) == 0);
+        assert_true(strncmp(c, "&amp;", 5) == 0 || strncmp(c, "&lt;", 4) == 0 || strncmp(c, "&gt;", 4) == 0 ||
+                    strncmp(c, "&quot;", 6) == 0 || strncmp(c, "&apos;", 6) == 0);
     }
 }
 

@@ -1,0 +1,367 @@
+/* Every scene of the catalogue and its variants, at the size for continuous integration: every step converges, every invariant holds at every
+ * accepted point, and the end lies within the golden bands (tests/golden). Prints the figures that docs/claims.md quotes.
+ *
+ *     test_scenes                        the tests
+ *     test_scenes --regenerate [NAME]... makes the golden files anew (tests/golden/README.md) */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "support/golden_bands.h"
+#include "support/scene_run.h"
+
+/* ---- The scenes ------------------------------------------------------------------------------------------------------------- */
+
+typedef struct variant {
+    const char *name;
+    scene_request request;
+} variant;
+
+/* One thread: other tests run on the other cores, and the results are those of any number (test_threads_change_nothing). */
+#define SCENE(file_name, ...) {.file = "tests/scenes/" file_name ".json", .threads = 1, .overrides = {__VA_ARGS__}}
+#define NO_LIMIT "bodies.cloth.strain_limit=false"
+#define LIMIT(s) "bodies.cloth.strain_limit.limit=" #s
+#define MEMBRANE(m) "bodies.cloth.membrane_factor=" #m
+
+static const variant variants[] = {
+    {"drape-membrane-1", SCENE("drape", MEMBRANE(1), NO_LIMIT)},
+    {"drape-membrane-1-limit-1.0608", SCENE("drape", MEMBRANE(1), LIMIT(1.0608))},
+    {"drape-membrane-0.1", SCENE("drape", MEMBRANE(0.1), NO_LIMIT)},
+    {"drape-membrane-0.1-limit-1.0608", SCENE("drape", MEMBRANE(0.1), LIMIT(1.0608))},
+    {"drape-membrane-0.01", SCENE("drape", MEMBRANE(0.01), NO_LIMIT)},
+    {"drape-membrane-0.01-limit-1.0608", SCENE("drape", MEMBRANE(0.01), LIMIT(1.0608))},
+    {"drape-membrane-0.01-limit-1.01", SCENE("drape", MEMBRANE(0.01), LIMIT(1.01))},
+    {"drape-membrane-0.01-limit-1.001", SCENE("drape", MEMBRANE(0.01), LIMIT(1.001))},
+    {"two-corner-hang-limit-1.0608", SCENE("two-corner-hang", LIMIT(1.0608))},
+    {"two-corner-hang-limit-1.01", SCENE("two-corner-hang", LIMIT(1.01))},
+    {"two-corner-hang-limit-1.001", SCENE("two-corner-hang", LIMIT(1.001))},
+    {"rotating-sphere", SCENE("rotating-sphere", NULL)},
+    {"free-fall", SCENE("free-fall", NULL)},
+    {"incline", SCENE("incline", NULL)},
+    {"incline-sticks", SCENE("incline", "friction.0.mu=0.5")},
+    {"resting", SCENE("resting", NULL)},
+};
+enum { VARIANTS = sizeof variants / sizeof variants[0] };
+
+static const variant *variant_of(const char *name)
+{
+    for (int i = 0; i < VARIANTS; i++) {
+        if (strcmp(variants[i].name, name) == 0) {
+            return &variants[i];
+        }
+    }
+    return NULL;
+}
+
+enum { PATH_SIZE = 128, COMMAND_SIZE = 256 };
+
+static void golden_path(const variant *v, char path[PATH_SIZE])
+{
+    snprintf(path, PATH_SIZE, "tests/golden/%s.json", v->name);
+}
+
+/* The run as a user would ask for it. */
+static void command_of(const variant *v, char command[COMMAND_SIZE])
+{
+    size_t length = (size_t)snprintf(command, COMMAND_SIZE, "cipc run %s", v->request.file);
+    for (int i = 0; v->request.overrides[i] != NULL; i++) {
+        length += (size_t)snprintf(command + length, COMMAND_SIZE - length, " --set %s", v->request.overrides[i]);
+    }
+}
+
+/* ---- Running ---------------------------------------------------------------------------------------------------------------- */
+
+static scene_outcome run_or_fail(const scene_request *request)
+{
+    scene_outcome outcome;
+    cipc_error error;
+    if (scene_run(request, &outcome, &error) != CIPC_OK) {
+        scene_outcome_free(&outcome);
+        fail_msg("%s: %s: %s", request->file, error.place, error.what);
+    }
+    return outcome;
+}
+
+/* The monitors have looked, and what they report agrees with their verdicts. */
+static void assert_monitored(const scene_outcome *o)
+{
+    assert_true(o->steps > 0 && o->points >= o->steps);
+    assert_true(o->energy_checks > 0 && o->energy_checks <= o->points);
+    assert_true(o->min_gap > 0);
+    if (o->stretch_limit > 0) {
+        assert_true(o->max_stretch < o->stretch_limit && o->max_stretch_ratio < 1);
+    }
+}
+
+static void print_figures(const char *name, const scene_outcome *o)
+{
+    print_message("%s: %d steps, %d nodes, %ld points checked, %.0f Newton iterations, at most %d contacts, min gap %.3g m, largest stretch %.7f, "
+                  "of the limit %.4f, exact gap checks %ld, exact strain checks %ld\n",
+                  name, o->steps, o->node_count, o->points, o->quantity[QUANTITY_newton_iterations], o->max_contacts, o->min_gap, o->max_stretch,
+                  o->max_stretch_ratio, o->exact_gap_checks, o->exact_strain_checks);
+}
+
+static golden_bands bands_or_fail(const variant *v)
+{
+    char path[PATH_SIZE], command[COMMAND_SIZE], why[GOLDEN_REASON];
+    golden_bands bands;
+    golden_path(v, path);
+    command_of(v, command);
+    if (!golden_read(path, command, &bands, why)) {
+        fail_msg("%s", why);
+    }
+    return bands;
+}
+
+/* One scene: cmocka lists this test under the variant's name. */
+static void test_variant(void **state)
+{
+    const variant *v = *state;
+    char why[GOLDEN_REASON];
+    const golden_bands bands = bands_or_fail(v);
+    scene_outcome outcome = run_or_fail(&v->request);
+    const bool within = golden_accepts(&bands, outcome.quantity, why);
+    print_figures(v->name, &outcome);
+    assert_monitored(&outcome);
+    if (strstr(v->request.file, "hang") == NULL && strstr(v->request.file, "free-fall") == NULL) {
+        assert_true(outcome.max_contacts > 0);
+        assert_true(outcome.max_friction > 0 || strstr(v->request.file, "resting") != NULL);
+    }
+    scene_outcome_free(&outcome);
+    if (!within) {
+        fail_msg("%s: %s", v->name, why);
+    }
+}
+
+/* ---- Threads ---------------------------------------------------------------------------------------------------------------- */
+
+/* Not within a tolerance: the same bytes (docs/validation.md). */
+static void test_threads_change_nothing(void **state)
+{
+    (void)state;
+    scene_request request = variant_of("drape-membrane-0.01-limit-1.0608")->request;
+    request.threads = 1;
+    scene_outcome one = run_or_fail(&request);
+    request.threads = 2;
+    scene_outcome two = run_or_fail(&request);
+    const size_t size = 3 * (size_t)one.node_count * sizeof(double);
+    assert_int_equal(one.node_count, two.node_count);
+    assert_memory_equal(one.position, two.position, size);
+    assert_memory_equal(one.velocity, two.velocity, size);
+    assert_memory_equal(one.quantity, two.quantity, sizeof one.quantity);
+    assert_int_equal(one.points, two.points);
+    scene_outcome_free(&one);
+    scene_outcome_free(&two);
+}
+
+/* That comparison can fail: a start displaced by one unit in the last place leads elsewhere. */
+static void test_comparison_of_threads_sees_one_ulp(void **state)
+{
+    (void)state;
+    scene_request request = variant_of("resting")->request;
+    scene_outcome one = run_or_fail(&request);
+    request.jitter = 0x1p-53; /* the plate starts at 6e-4 m, where doubles are 2^-63 apart, and at 0.5 m, where they are 2^-53 apart */
+    request.jitter_seed = 1;
+    scene_outcome two = run_or_fail(&request);
+    assert_memory_not_equal(one.position, two.position, 3 * (size_t)one.node_count * sizeof(double));
+    scene_outcome_free(&one);
+    scene_outcome_free(&two);
+}
+
+/* ---- The golden check rejects what is wrong --------------------------------------------------------------------------------- */
+
+/* Just outside either end, and what is no number. */
+static void test_values_outside_a_band_are_rejected(void **state)
+{
+    (void)state;
+    for (int i = 0; i < VARIANTS; i++) {
+        const golden_bands bands = bands_or_fail(&variants[i]);
+        double inside[QUANTITY_COUNT];
+        char why[GOLDEN_REASON];
+        for (int q = 0; q < QUANTITY_COUNT; q++) {
+            inside[q] = 0.5 * bands.low[q] + 0.5 * bands.high[q];
+        }
+        assert_true(golden_accepts(&bands, inside, why));
+        for (int q = 0; q < QUANTITY_COUNT; q++) {
+            const double wrong[] = {nextafter(bands.low[q], -INFINITY), nextafter(bands.high[q], INFINITY), NAN, INFINITY, -INFINITY};
+            const double right = inside[q];
+            for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+                inside[q] = wrong[k];
+                assert_false(golden_accepts(&bands, inside, why));
+                assert_non_null(strstr(why, scene_quantity_name((scene_quantity)q)));
+            }
+            inside[q] = right;
+        }
+    }
+}
+
+/* Runs of slightly wrong physics end outside the bands: gravity off by 0.1 %, friction by 2 %, a limit of 1.02 for 1.01. */
+static void test_wrong_physics_is_rejected(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *name, *fault;
+    } faults[] = {
+        {"free-fall", "gravity.1=-9.80019"},
+        {"incline", "friction.0.mu=0.204"},
+        {"incline-sticks", "contact.friction_velocity=2e-3"},
+        {"resting", "contact.dhat=1.1e-3"},
+        {"two-corner-hang-limit-1.01", LIMIT(1.02)},
+    };
+    for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
+        const variant *v = variant_of(faults[i].name);
+        scene_request request = v->request;
+        int count = 0;
+        while (request.overrides[count] != NULL) {
+            count++;
+        }
+        request.overrides[count] = faults[i].fault; /* after the variant's own: it counts */
+        const golden_bands bands = bands_or_fail(v);
+        char why[GOLDEN_REASON];
+        scene_outcome outcome = run_or_fail(&request);
+        const bool accepted = golden_accepts(&bands, outcome.quantity, why);
+        scene_outcome_free(&outcome);
+        if (accepted) {
+            fail_msg("%s with %s is accepted", faults[i].name, faults[i].fault);
+        }
+        print_message("%s with %s: %s\n", faults[i].name, faults[i].fault, why);
+    }
+}
+
+/* No run lies within the bands of another variant: they tell the scenes apart. */
+static void test_bands_of_variants_are_disjoint(void **state)
+{
+    (void)state;
+    for (int i = 0; i < VARIANTS; i++) {
+        for (int k = 0; k < i; k++) {
+            const golden_bands a = bands_or_fail(&variants[i]), b = bands_or_fail(&variants[k]);
+            bool disjoint = false;
+            for (int q = 0; q < QUANTITY_COUNT; q++) {
+                disjoint = disjoint || a.high[q] < b.low[q] || b.high[q] < a.low[q];
+            }
+            if (!disjoint) {
+                fail_msg("%s and %s overlap in every band", variants[i].name, variants[k].name);
+            }
+        }
+    }
+}
+
+static bool accepts_text(const char *text, char why[GOLDEN_REASON])
+{
+    char path[] = "/tmp/cipc-golden-XXXXXX";
+    golden_bands bands;
+    const int file = mkstemp(path);
+    assert_true(file >= 0);
+    FILE *stream = fdopen(file, "w");
+    assert_non_null(stream);
+    fputs(text, stream);
+    fclose(stream);
+    const bool accepted = golden_read(path, "c", &bands, why);
+    remove(path);
+    return accepted;
+}
+
+/* A file of all bands, the first `count` of them as `entry`. */
+static const char *file_of(char text[4096], const char *entry, int count, const char *extra)
+{
+    int length = snprintf(text, 4096, "{\"command\": \"c\", \"bands\": {");
+    for (int q = 0; q < QUANTITY_COUNT; q++) {
+        length += snprintf(text + length, 4096 - (size_t)length, "%s\"%s\": %s", q > 0 ? ", " : "", scene_quantity_name((scene_quantity)q),
+                           q < count ? entry : "{\"band\": [0, 1], \"comment\": \"\"}");
+    }
+    snprintf(text + length, 4096 - (size_t)length, "%s}}", extra);
+    return text;
+}
+
+static void test_broken_golden_files_are_rejected(void **state)
+{
+    (void)state;
+    char why[GOLDEN_REASON], text[4096];
+    golden_bands bands;
+    assert_false(golden_read("tests/golden/none.json", "c", &bands, why));
+    assert_true(accepts_text(file_of(text, "", 0, ""), why));
+    assert_false(accepts_text("", why));
+    assert_false(accepts_text("{\"command\": \"c\", \"bands\": {}}", why));
+    assert_false(accepts_text("{\"command\": \"d\", \"bands\": {}}", why));
+    assert_false(accepts_text(file_of(text, "", 0, ", \"unheard of\": {\"band\": [0, 1], \"comment\": \"\"}"), why));
+    static const char *const entries[] = {"{\"band\": [1, 0], \"comment\": \"\"}", "{\"band\": [0], \"comment\": \"\"}", "{\"band\": [0, 1]}",
+                                          "{\"band\": [\"0\", 1], \"comment\": \"\"}", "{\"band\": [0, 1, 2], \"comment\": \"\"}", "null"};
+    for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++) {
+        assert_false(accepts_text(file_of(text, entries[i], 1, ""), why));
+    }
+}
+
+/* ---- Making the golden files ------------------------------------------------------------------------------------------------ */
+
+/* The runs of the rule: as it is, with a tolerance ten times tighter, and with starts displaced by up to a micrometre. */
+enum { GOLDEN_RUNS = 8 };
+static const double tighter = 0.1, golden_jitter = 1e-6;
+
+static bool regenerate(const variant *v)
+{
+    double quantity[GOLDEN_RUNS][QUANTITY_COUNT];
+    golden_scale scale = {0, 0, 0};
+    for (int r = 0; r < GOLDEN_RUNS; r++) {
+        scene_request request = v->request;
+        scene_outcome outcome;
+        cipc_error error;
+        request.tolerance_factor = r == 1 ? tighter : 1;
+        request.jitter = r > 1 ? golden_jitter : 0;
+        request.jitter_seed = (unsigned long)r;
+        if (scene_run(&request, &outcome, &error) != CIPC_OK) {
+            fprintf(stderr, "%s, run %d: %s: %s\n", v->name, r, error.place, error.what);
+            scene_outcome_free(&outcome);
+            return false;
+        }
+        memcpy(quantity[r], outcome.quantity, sizeof quantity[r]);
+        if (r == 0) {
+            scale = (golden_scale){outcome.time_step, outcome.tolerance, outcome.moving_mass};
+        }
+        scene_outcome_free(&outcome);
+    }
+    char path[PATH_SIZE], command[COMMAND_SIZE], why[GOLDEN_REASON];
+    golden_path(v, path);
+    command_of(v, command);
+    const bool good = golden_write(path, command, GOLDEN_RUNS, (const double (*)[QUANTITY_COUNT])quantity, scale, why);
+    fprintf(stderr, "%s\n", good ? path : why);
+    return good;
+}
+
+static int regenerate_named(int count, char **names)
+{
+    bool good = true;
+    for (int i = 0; i < VARIANTS; i++) {
+        bool wanted = count == 0;
+        for (int k = 0; k < count; k++) {
+            wanted = wanted || strcmp(names[k], variants[i].name) == 0;
+        }
+        good = (!wanted || regenerate(&variants[i])) && good;
+    }
+    return good ? 0 : 1;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc > 1 && strcmp(argv[1], "--regenerate") == 0) {
+        return regenerate_named(argc - 2, argv + 2);
+    }
+    struct CMUnitTest scenes[VARIANTS];
+    for (int i = 0; i < VARIANTS; i++) {
+        scenes[i] = (struct CMUnitTest){variants[i].name, test_variant, NULL, NULL, (void *)(uintptr_t)&variants[i]};
+    }
+    const struct CMUnitTest checks[] = {
+        cmocka_unit_test(test_threads_change_nothing),
+        cmocka_unit_test(test_comparison_of_threads_sees_one_ulp),
+        cmocka_unit_test(test_values_outside_a_band_are_rejected),
+        cmocka_unit_test(test_wrong_physics_is_rejected),
+        cmocka_unit_test(test_bands_of_variants_are_disjoint),
+        cmocka_unit_test(test_broken_golden_files_are_rejected),
+    };
+    return cmocka_run_group_tests_name("scenes", scenes, NULL, NULL) + cmocka_run_group_tests_name("checks", checks, NULL, NULL);
+}

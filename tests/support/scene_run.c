@@ -1,0 +1,261 @@
+/* The loop of src/cli (simulation.c, steps.c) without its files: load, check the start, step, look at every accepted point. */
+#include "support/scene_run.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cipc/invariant.h"
+
+const char *scene_quantity_name(scene_quantity quantity)
+{
+    static const char *const names[] = {
+#define X(name, unit, what) #name,
+        SCENE_QUANTITIES(X)
+#undef X
+    };
+    return names[quantity];
+}
+
+const char *scene_quantity_unit(scene_quantity quantity)
+{
+    static const char *const units[] = {
+#define X(name, unit, what) unit,
+        SCENE_QUANTITIES(X)
+#undef X
+    };
+    return units[quantity];
+}
+
+void scene_outcome_free(scene_outcome *outcome)
+{
+    cipc_free(outcome->position);
+    cipc_free(outcome->velocity);
+    memset(outcome, 0, sizeof *outcome);
+}
+
+/* A run under way. */
+typedef struct run {
+    cipc_scene *scene;
+    cipc_monitor *monitor;
+    cipc_stepper *stepper;
+    scene_outcome *outcome;
+    long points_of_step;
+    double stretch_now;   /* at the last accepted point */
+} run;
+
+/* ---- The monitors ----------------------------------------------------------------------------------------------------------- */
+
+static cipc_status at_point(const cipc_accepted_point *point, cipc_error *error)
+{
+    char place[sizeof error->place], remedy[sizeof error->remedy];
+    snprintf(place, sizeof place, "step %d, iteration %d, %.400s", point->step + 1, point->iteration + 1, error->place);
+    snprintf(remedy, sizeof remedy, "%s", error->remedy);
+    cipc_fail(error, error->status, place, "%s", error->what);
+    return cipc_fail_remedy(error, "%s", remedy);
+}
+
+static void take_in(run *r, const cipc_invariant_report *report)
+{
+    scene_outcome *o = r->outcome;
+    o->points++;
+    r->points_of_step++;
+    r->stretch_now = report->max_stretch;
+    o->min_gap = fmin(o->min_gap, report->min_gap);
+    o->max_stretch = fmax(o->max_stretch, report->max_stretch);
+    o->max_stretch_ratio = fmax(o->max_stretch_ratio, report->max_stretch_ratio);
+    o->exact_gap_checks += report->exact_gap_checks;
+    o->exact_strain_checks += report->exact_strain_checks;
+}
+
+/* M6, then M8 and M1 to M4 (docs/monitors.md). */
+static cipc_status look(void *context, const cipc_accepted_point *point, cipc_error *error)
+{
+    run *r = context;
+    cipc_invariant_report report;
+    cipc_invariant_report_init(&report);
+    cipc_status status = CIPC_OK;
+    if (point->energy_valid) {
+        r->outcome->energy_checks++;
+        status = cipc_monitor_energy(point->energy_before, point->energy_after, point->energy_noise, error);
+    }
+    if (status == CIPC_OK) {
+        status = cipc_monitor_check(r->monitor, point->x, &report, error);
+    }
+    if (status != CIPC_OK) {
+        return at_point(point, error);
+    }
+    take_in(r, &report);
+    return CIPC_OK;
+}
+
+/* ---- The start -------------------------------------------------------------------------------------------------------------- */
+
+static bool moves_by_itself(const cipc_model *model, int node)
+{
+    return !model->bodies[model->node_body[node]].fixed;
+}
+
+/* A number in [-1, 1) from a linear congruential generator (Knuth's MMIX constants): the same on every machine. */
+static double draw(unsigned long long *state)
+{
+    *state = *state * 6364136223846793005ULL + 1442695040888963407ULL;
+    return (double)(*state >> 11) * 0x1p-52 - 1;
+}
+
+static void disturb(cipc_scene *scene, double jitter, unsigned long seed)
+{
+    const cipc_model *m = scene->model;
+    bool *held = cipc_alloc((size_t)m->node_count, sizeof *held);
+    double *target = cipc_alloc(3 * (size_t)m->node_count, sizeof *target);
+    if (held != NULL && target != NULL) {
+        cipc_dirichlet_targets(m, scene->state->position, 0, scene->options.time_step, held, target, NULL);
+        unsigned long long generator = seed;
+        for (int i = 0; i < 3 * m->node_count; i++) {
+            const double offset = jitter * draw(&generator);
+            scene->state->position[i] += held[i / 3] ? 0 : offset;
+        }
+    }
+    cipc_free(held);
+    cipc_free(target);
+}
+
+static cipc_status open_run(run *r, const scene_request *request, cipc_error *error)
+{
+    int count = 0;
+    while (request->overrides[count] != NULL) {
+        count++;
+    }
+    cipc_status status = cipc_scene_load(&r->scene, request->file, count, request->overrides, error);
+    if (status != CIPC_OK) {
+        return status;
+    }
+    cipc_scene *scene = r->scene;
+    scene->options.threads = request->threads;
+    scene->options.newton_tolerance *= request->tolerance_factor > 0 ? request->tolerance_factor : 1;
+    disturb(scene, request->jitter, request->jitter_seed);
+    cipc_invariant_options options = cipc_invariant_options_default();
+    options.reach = scene->monitor_reach;
+    options.threads = request->threads;
+    status = cipc_monitor_create(&r->monitor, scene->model, &options, error);
+    if (status == CIPC_OK) {
+        status = cipc_monitor_check(r->monitor, scene->state->position, NULL, error);
+    }
+    if (status == CIPC_OK) {
+        status = cipc_stepper_create(&r->stepper, scene->model, &scene->options, error);
+    }
+    return status;
+}
+
+/* ---- The steps -------------------------------------------------------------------------------------------------------------- */
+
+static cipc_status take_step(run *r, cipc_error *error)
+{
+    cipc_step_report report;
+    cipc_state *state = r->scene->state;
+    scene_outcome *o = r->outcome;
+    r->points_of_step = 0;
+    cipc_status status = cipc_step(r->stepper, state, &report, error);
+    if (status == CIPC_OK) {
+        status = cipc_monitor_residual(report.residual, r->scene->options.newton_tolerance, error);
+    }
+    if (status == CIPC_OK && r->points_of_step == 0) { /* a step without any accepted point has to leave a good state too */
+        const cipc_accepted_point end = {.x = state->position, .step = state->step - 1, .iteration = report.newton_iterations - 1};
+        status = look(r, &end, error);
+    }
+    if (status == CIPC_OK && !report.converged) {
+        status = cipc_fail(error, CIPC_E_NOT_CONVERGED, "scene_run", "step %d ended well, yet is not reported as converged", state->step);
+    }
+    o->quantity[QUANTITY_newton_iterations] += report.newton_iterations;
+    o->quantity[QUANTITY_contacts] = report.contacts;
+    o->quantity[QUANTITY_elastic_energy] = report.elastic;
+    o->quantity[QUANTITY_energy] = report.kinetic + report.gravitational + report.elastic;
+    o->quantity[QUANTITY_largest_stretch] = fmax(o->quantity[QUANTITY_largest_stretch], r->stretch_now);
+    o->max_contacts = report.max_contacts > o->max_contacts ? report.max_contacts : o->max_contacts;
+    o->max_friction = fmax(o->max_friction, report.incremental.friction);
+    o->steps = state->step;
+    return status;
+}
+
+static void centre_of_mass(const cipc_model *model, const double *x, double centre[3], double *mass)
+{
+    *mass = centre[0] = centre[1] = centre[2] = 0;
+    for (int i = 0; i < model->node_count; i++) {
+        if (moves_by_itself(model, i)) {
+            *mass += model->mass[i];
+            for (int k = 0; k < 3; k++) {
+                centre[k] += model->mass[i] * x[3 * i + k];
+            }
+        }
+    }
+    for (int k = 0; k < 3; k++) {
+        centre[k] /= *mass;
+    }
+}
+
+static void begin_outcome(const run *r)
+{
+    scene_outcome *o = r->outcome;
+    const cipc_model *m = r->scene->model;
+    o->min_gap = INFINITY;
+    o->time_step = r->scene->options.time_step;
+    o->tolerance = r->scene->options.newton_tolerance;
+    for (int b = 0; b < m->body_count; b++) {
+        const double limit = m->bodies[b].material.strain_limit;
+        o->stretch_limit = limit > 0 && (o->stretch_limit == 0 || limit < o->stretch_limit) ? limit : o->stretch_limit;
+    }
+}
+
+static cipc_status finish_outcome(const run *r, const double start[3], cipc_error *error)
+{
+    scene_outcome *o = r->outcome;
+    const cipc_model *m = r->scene->model;
+    const cipc_state *state = r->scene->state;
+    double end[3], drift[3];
+    centre_of_mass(m, state->position, end, &o->moving_mass);
+    centre_of_mass(m, state->velocity, drift, &o->moving_mass);
+    o->travel = hypot(hypot(end[0] - start[0], end[1] - start[1]), end[2] - start[2]);
+    o->speed = hypot(hypot(drift[0], drift[1]), drift[2]);
+    memcpy(o->quantity + QUANTITY_centre_of_mass_x, end, sizeof end);
+    o->quantity[QUANTITY_lowest_node] = INFINITY;
+    o->quantity[QUANTITY_highest_node] = -INFINITY;
+    for (int i = 0; i < m->node_count; i++) {
+        if (moves_by_itself(m, i)) {
+            o->quantity[QUANTITY_lowest_node] = fmin(o->quantity[QUANTITY_lowest_node], state->position[3 * i + 1]);
+            o->quantity[QUANTITY_highest_node] = fmax(o->quantity[QUANTITY_highest_node], state->position[3 * i + 1]);
+        }
+    }
+    const size_t size = 3 * (size_t)m->node_count;
+    o->node_count = m->node_count;
+    o->position = cipc_alloc(size, sizeof(double));
+    o->velocity = cipc_alloc(size, sizeof(double));
+    if (o->position == NULL || o->velocity == NULL) {
+        return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "scene_run", "no memory for %d nodes", m->node_count);
+    }
+    memcpy(o->position, state->position, size * sizeof(double));
+    memcpy(o->velocity, state->velocity, size * sizeof(double));
+    return CIPC_OK;
+}
+
+cipc_status scene_run(const scene_request *request, scene_outcome *outcome, cipc_error *error)
+{
+    memset(outcome, 0, sizeof *outcome);
+    run r = {.outcome = outcome};
+    double start[3] = {0};
+    cipc_status status = open_run(&r, request, error);
+    if (status == CIPC_OK) {
+        begin_outcome(&r);
+        centre_of_mass(r.scene->model, r.scene->state->position, start, &outcome->moving_mass);
+        cipc_stepper_set_monitor(r.stepper, look, &r);
+    }
+    while (status == CIPC_OK && r.scene->state->step < r.scene->steps) {
+        status = take_step(&r, error);
+    }
+    if (status == CIPC_OK) {
+        status = finish_outcome(&r, start, error);
+    }
+    cipc_stepper_destroy(r.stepper);
+    cipc_monitor_destroy(r.monitor);
+    cipc_scene_destroy(r.scene);
+    return status;
+}

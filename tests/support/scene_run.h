@@ -1,0 +1,62 @@
+/* A scene of tests/scenes run through the library as `cipc run` does it: every accepted point goes to the monitors, every step has to
+ * converge. What comes out is what the golden bands (golden_bands.h) and the claims are about. */
+#ifndef SUPPORT_SCENE_RUN_H
+#define SUPPORT_SCENE_RUN_H
+
+#include "cipc/scene.h"
+
+/* Which run: scene file, overrides as after --set (NULL-terminated, at most SCENE_RUN_OVERRIDES), and how it is disturbed. */
+enum { SCENE_RUN_OVERRIDES = 8 };
+typedef struct scene_request {
+    const char *file;                  /* relative to the project's folder, where tests run */
+    const char *overrides[SCENE_RUN_OVERRIDES + 1];
+    int threads;                       /* >= 1 */
+    double tolerance_factor;           /* multiplies newton.tolerance; 0 means 1 */
+    double jitter;                     /* m: every free node starts up to this far from its place in x, y and z; 0: none */
+    unsigned long jitter_seed;
+} scene_request;
+
+/* The quantities that are held against golden bands, of the nodes of bodies that are not fixed: X(name, unit, what it is). */
+#define SCENE_QUANTITIES(X)                                                                                                       \
+    X(centre_of_mass_x, "m", "centre of mass at the end")                                                                         \
+    X(centre_of_mass_y, "m", "centre of mass at the end")                                                                         \
+    X(centre_of_mass_z, "m", "centre of mass at the end")                                                                         \
+    X(lowest_node, "m", "smallest y at the end")                                                                                  \
+    X(highest_node, "m", "largest y at the end")                                                                                  \
+    X(energy, "J", "kinetic + gravitational + elastic at the end")                                                                \
+    X(elastic_energy, "J", "at the end")                                                                                          \
+    X(largest_stretch, "1", "largest principal stretch at the end of any step")                                                   \
+    X(contacts, "1", "active stencils at the end")                                                                                \
+    X(newton_iterations, "1", "in all steps together")
+typedef enum scene_quantity {
+#define X(name, unit, what) QUANTITY_##name,
+    SCENE_QUANTITIES(X)
+#undef X
+    QUANTITY_COUNT
+} scene_quantity;
+const char *scene_quantity_name(scene_quantity quantity);
+const char *scene_quantity_unit(scene_quantity quantity);
+
+typedef struct scene_outcome {
+    double quantity[QUANTITY_COUNT];
+    int steps;                         /* taken, all converged */
+    long points, energy_checks;        /* accepted points that the monitors looked at; those with comparable energies */
+    double min_gap;                    /* m: d - xi, smallest at any accepted point; INFINITY: nothing came within reach */
+    double max_stretch, max_stretch_ratio; /* at any accepted point */
+    long exact_gap_checks, exact_strain_checks;
+    int max_contacts;
+    double max_friction;               /* J: largest friction term of the incremental potential at the end of a step; > 0: friction was active */
+    double time_step, tolerance, moving_mass; /* s, m/s, kg */
+    double travel;                     /* m, of the centre of mass */
+    double speed;                      /* m/s, of the centre of mass at the end */
+    double stretch_limit;              /* the smallest limit of any body; 0: none */
+    int node_count;
+    double *position, *velocity;       /* 3 * node_count, of cipc_alloc: the state at the end */
+} scene_outcome;
+void scene_outcome_free(scene_outcome *outcome);
+
+/* Run it to its last step. CIPC_OK: every step converged and every invariant held at every accepted point. Anything else: what
+ * cipc_step or a monitor said, with the place prefixed by step and iteration (both from 1). *outcome is to be freed in either case. */
+cipc_status scene_run(const scene_request *request, scene_outcome *outcome, cipc_error *error);
+
+#endif

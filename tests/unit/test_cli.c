@@ -1,0 +1,659 @@
+/* The program itself: exit statuses, messages, files, interruption. It is run as a user runs it; CIPC names it (default build/cipc). */
+#define _XOPEN_SOURCE 700 /* posix_openpt, realpath */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <cairo.h>
+#include <fcntl.h>
+#include <jansson.h>
+#include <limits.h>
+#include <signal.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/inotify.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cipc/output.h"
+#include "support/sample_run.h"
+
+/* A cloth of 3 x 3 nodes that falls on a floor; its steps are quick. */
+#define FLOOR                                                                                                                              \
+    "{\"name\": \"floor\", \"fixed\": true, \"material\": \"cotton\", \"shell\": {\"grid\": {\"size\": [2, 2], \"cells\": [1, 1]}}}"
+#define CLOTH(height)                                                                                                                      \
+    "{\"name\": \"cloth\", \"material\": \"cotton\", \"strain_limit\": {\"limit\": 1.0608}, \"offset\": 1e-3, "                            \
+    "\"shell\": {\"grid\": {\"size\": [0.2, 0.2], \"cells\": [2, 2]}}, \"transform\": {\"translate\": [0.13, " height ", 0.07]}}"
+#define SCENE(rest, bodies) "{\"time_step\": 0.01, \"steps\": 5, \"contact\": {\"dhat\": 1e-3}, " rest "\"bodies\": [" bodies "]}"
+
+static const char falling[] = SCENE("", FLOOR ", " CLOTH("0.01"));
+static const char crossing[] = SCENE("", FLOOR ", " CLOTH("0"));
+static const char too_near[] = SCENE("", FLOOR ", " CLOTH("0.0004")); /* the pair's thickness is 0.5e-3: the floor's is 0 */
+typedef struct fixture {
+    char program[PATH_MAX];
+    path folder, out, scene;
+} fixture;
+
+static int set_up(void **state)
+{
+    fixture *f = calloc(1, sizeof *f);
+    const char *program = getenv("CIPC");
+    if (realpath(program != NULL ? program : "build/cipc", f->program) == NULL) {
+        print_error("no program: set CIPC\n");
+        return -1;
+    }
+    f->folder = folder_make();
+    f->out = path_in(&f->folder, "new/out");
+    f->scene = path_in(&f->folder, "scene.json");
+    file_write(&f->scene, falling, strlen(falling));
+    *state = f;
+    return 0;
+}
+
+static int tear_down(void **state)
+{
+    fixture *f = *state;
+    folder_remove(&f->folder);
+    free(f);
+    return 0;
+}
+
+/* What a run of the program gave. */
+typedef struct outcome {
+    int exit_status; /* -1: it did not end by itself */
+    char out[16384], err[8192];
+} outcome;
+
+enum { MOST_WORDS = 16 };
+
+/* Start the program with the words given, up to NULL; its output goes to two files in the folder. */
+static pid_t start(const fixture *f, va_list words)
+{
+    const path out = path_in(&f->folder, "stdout"), err = path_in(&f->folder, "stderr");
+    char *argv[MOST_WORDS + 2] = {(char *)(uintptr_t)f->program};
+    for (int i = 1; i <= MOST_WORDS && (argv[i] = va_arg(words, char *)) != NULL;) {
+        i++;
+    }
+    fflush(NULL);
+    const pid_t child = fork();
+    if (child == 0) {
+        dup2(open(out.text, O_WRONLY | O_CREAT | O_TRUNC, 0600), STDOUT_FILENO);
+        dup2(open(err.text, O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+        execv(f->program, argv);
+        _exit(126);
+    }
+    assert_true(child > 0);
+    return child;
+}
+
+static void read_text(const fixture *f, const char *name, char *text, size_t size)
+{
+    const path file = path_in(&f->folder, name);
+    char *bytes = file_read(&file, NULL);
+    snprintf(text, size, "%s", bytes);
+    free(bytes);
+}
+
+static outcome await(const fixture *f, pid_t child)
+{
+    outcome o;
+    int how;
+    assert_int_equal(waitpid(child, &how, 0), child);
+    o.exit_status = WIFEXITED(how) ? WEXITSTATUS(how) : -1;
+    read_text(f, "stdout", o.out, sizeof o.out);
+    read_text(f, "stderr", o.err, sizeof o.err);
+    return o;
+}
+
+static outcome cipc(const fixture *f, ...)
+{
+    va_list words;
+    va_start(words, f);
+    const pid_t child = start(f, words);
+    va_end(words);
+    return await(f, child);
+}
+
+static pid_t cipc_in_background(const fixture *f, ...)
+{
+    va_list words;
+    va_start(words, f);
+    const pid_t child = start(f, words);
+    va_end(words);
+    return child;
+}
+
+/* One line "cipc: where: CIPC-number: what: how to mend it" on stderr, nothing on stdout. */
+static void assert_message(const outcome *o, int exit_status, const char *number, const char *part)
+{
+    if (o->exit_status != exit_status || o->out[0] != '\0') {
+        fail_msg("exit status %d, stdout '%s', stderr '%s'", o->exit_status, o->out, o->err);
+    }
+    const char *end = strchr(o->err, '\n');
+    if (strncmp(o->err, "cipc: ", 6) != 0 || end == NULL || end[1] != '\0' || strstr(o->err, number) == NULL ||
+        strstr(o->err, part) == NULL) {
+        fail_msg("stderr is '%s', without %s or '%s'", o->err, number, part);
+    }
+    int colons = 0;
+    for (const char *c = strstr(o->err, ": "); c != NULL; c = strstr(c + 1, ": ")) {
+        colons++;
+    }
+    assert_true(colons >= 4);
+}
+
+static json_t *load_result(const fixture *f, const char *name)
+{
+    const path file = path_in(&f->out, name);
+    json_error_t error;
+    json_t *object = json_load_file(file.text, JSON_REJECT_DUPLICATES, &error);
+    if (object == NULL) {
+        fail_msg("%s: %s", file.text, error.text);
+    }
+    return object;
+}
+
+static const char *text_of(const json_t *object, const char *key)
+{
+    return json_string_value(json_object_get(object, key));
+}
+
+/* ---- Usage ----------------------------------------------------------------------------------------------------------------- */
+
+static void test_help_and_version(void **state)
+{
+    const fixture *f = *state;
+    outcome o = cipc(f, "--version", NULL);
+    char expected[64];
+    snprintf(expected, sizeof expected, "cipc %s\n", cipc_version());
+    assert_int_equal(o.exit_status, 0);
+    assert_string_equal(o.out, expected);
+    o = cipc(f, "--help", NULL);
+    assert_true(o.exit_status == 0 && strstr(o.out, "scenes") != NULL && strstr(o.out, "run") != NULL);
+    assert_string_equal(o.err, "");
+    o = cipc(f, "help", NULL);
+    assert_true(o.exit_status == 0 && strstr(o.out, "scenes") != NULL);
+    const outcome by_word = cipc(f, "help", "run", NULL), by_option = cipc(f, "run", "--help", NULL);
+    assert_int_equal(by_word.exit_status, 0);
+    assert_string_equal(by_word.out, by_option.out);
+    static const char *const options[] = {"cipc run", "SCENE.json",   "--output=DIR", "--steps=N", "--set=PATH=VALUE", "--threads=N",
+                                          "--resume", "--no-monitor", "--obj",        "--quiet",   "--help",           "--version"};
+    for (size_t i = 0; i < sizeof options / sizeof options[0]; i++) {
+        if (strstr(by_word.out, options[i]) == NULL) {
+            fail_msg("no %s in the help", options[i]);
+        }
+    }
+    o = cipc(f, "scenes", "--usage", NULL);
+    assert_true(o.exit_status == 0 && strstr(o.out, "--json") != NULL);
+    o = cipc(f, "run", "--version", NULL);
+    assert_string_equal(o.out, expected);
+}
+
+static void test_bad_usage(void **state)
+{
+    const fixture *f = *state;
+    const struct { const char *words[4]; const char *part; } cases[] = {
+        {{NULL}, "cipc --help"},
+        {{"rnu"}, "the nearest command is run"},
+        {{"scene", "--json"}, "the nearest command is scenes"},
+        {{"help", "rum"}, "the nearest command is run"},
+        {{"--halp"}, "'--halp'"},
+        {{"run"}, "no scene is given"},
+        {{"run", "a.json", "b.json"}, "'b.json'"},
+        {{"run", "a.json", "--stpes=4"}, "the nearest option is --steps"},
+        {{"run", "a.json", "-x"}, "'-x'"},
+        {{"run", "a.json", "-qx"}, "'-qx'"},
+        {{"run", "a.json", "--steps"}, "'--steps' needs a value"},
+        {{"run", "a.json", "-o"}, "'-o' needs a value"},
+        {{"run", "a.json", "-o", ""}, "empty"},
+        {{"run", "a.json", "--quiet=yes"}, "takes no value"},
+        {{"run", "a.json", "--steps=4.5"}, "'4.5' is not a whole number"},
+        {{"run", "a.json", "--steps=-1"}, "out of range"},
+        {{"run", "a.json", "--steps=99999999999999999999"}, "out of range"},
+        {{"run", "a.json", "--threads=0"}, "whole number from 1"},
+        {{"scenes", "drape"}, "'drape'"},
+        {{"scenes", "--jsom"}, "the nearest option is --json"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *const *w = cases[i].words;
+        const outcome o = cipc(f, w[0], w[1], w[2], w[3], NULL);
+        assert_message(&o, 2, "CIPC-2001", cases[i].part);
+    }
+}
+
+static void test_scenes(void **state)
+{
+    const fixture *f = *state;
+    const outcome table = cipc(f, "scenes", NULL), as_json = cipc(f, "scenes", "--json", NULL);
+    assert_true(table.exit_status == 0 && as_json.exit_status == 0);
+    json_t *list = json_loads(as_json.out, JSON_REJECT_DUPLICATES, NULL);
+    assert_true(json_array_size(list) > 0);
+    size_t index;
+    json_t *entry;
+    json_array_foreach(list, index, entry) {
+        static const char *const keys[] = {"name", "title", "source", "file"};
+        for (int k = 0; k < 4; k++) {
+            const char *text = text_of(entry, keys[k]);
+            assert_true(text != NULL && strstr(table.out, text) != NULL);
+        }
+    }
+    json_decref(list);
+}
+
+/* ---- Bad input ------------------------------------------------------------------------------------------------------------- */
+
+static void assert_nothing_written(const fixture *f)
+{
+    assert_false(file_exists(&f->out));
+}
+
+static void test_bad_scenes(void **state)
+{
+    const fixture *f = *state;
+    outcome o = cipc(f, "run", "/no/such/scene.json", "-o", f->out.text, NULL);
+    assert_message(&o, 2, "CIPC-2007", "/no/such/scene.json");
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "bodies.cloth.densty=3", NULL);
+    assert_message(&o, 2, "CIPC-200", "densty");
+    const struct { const char *text, *number, *part; } cases[] = {
+        {"{\"steps\": 1,\n  }", "CIPC-2002", "scene.json:2"},
+        {SCENE("\"newtn\": {}, ", FLOOR), "CIPC-2003", "newtn"},
+        {crossing, "CIPC-2009", "\"cloth\""},
+        {too_near, "CIPC-2010", "\"cloth\""},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        file_write(&f->scene, cases[i].text, strlen(cases[i].text));
+        o = cipc(f, "run", f->scene.text, "-o", f->out.text, NULL);
+        assert_message(&o, 2, cases[i].number, cases[i].part);
+        o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--no-monitor", NULL); /* the start is checked all the same */
+        assert_message(&o, 2, cases[i].number, cases[i].part);
+    }
+    assert_nothing_written(f);
+}
+
+static const char *const result_names[] = {"trajectory.h5", "trajectory.xdmf", "stats.jsonl", "summary.json",
+                                           "scene.json",    "frames.png",      "plots.png"};
+enum { RESULT_COUNT = sizeof result_names / sizeof result_names[0] };
+
+static void test_bad_scene_leaves_earlier_results(void **state)
+{
+    const fixture *f = *state;
+    char *before[RESULT_COUNT];
+    size_t sizes[RESULT_COUNT];
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, NULL).exit_status, 0);
+    for (int i = 0; i < RESULT_COUNT; i++) {
+        const path file = path_in(&f->out, result_names[i]);
+        before[i] = file_read(&file, &sizes[i]);
+    }
+    file_write(&f->scene, crossing, strlen(crossing));
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, NULL).exit_status, 2);
+    for (int i = 0; i < RESULT_COUNT; i++) {
+        const path file = path_in(&f->out, result_names[i]);
+        size_t size;
+        char *after = file_read(&file, &size);
+        assert_int_equal(size, sizes[i]);
+        assert_memory_equal(after, before[i], size);
+        free(after);
+        free(before[i]);
+    }
+}
+
+/* ---- Runs ------------------------------------------------------------------------------------------------------------------ */
+
+static int count_lines(const path *file)
+{
+    int lines = 0;
+    char *text = file_read(file, NULL);
+    for (const char *c = text; *c != '\0'; c++) {
+        lines += *c == '\n';
+    }
+    free(text);
+    return lines;
+}
+
+static void assert_is_png(const fixture *f, const char *name)
+{
+    const path file = path_in(&f->out, name);
+    cairo_surface_t *surface = cairo_image_surface_create_from_png(file.text);
+    assert_int_equal(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
+    assert_true(cairo_image_surface_get_width(surface) > 400);
+    cairo_surface_destroy(surface);
+}
+
+static int frames_of(const fixture *f)
+{
+    cipc_error error;
+    int frames = 0;
+    const path h5 = path_in(&f->out, "trajectory.h5");
+    if (cipc_trajectory_count(h5.text, &frames, &error) != CIPC_OK) {
+        fail_msg("%s: %s", error.place, error.what);
+    }
+    return frames;
+}
+
+static void test_good_run_writes_everything(void **state)
+{
+    const fixture *f = *state;
+    const outcome o = cipc(f, "run", f->scene.text, "--output", f->out.text, "--steps", "7", "--obj", "--threads", "2", NULL);
+    assert_int_equal(o.exit_status, 0);
+    assert_string_equal(o.out, "");
+    assert_string_equal(o.err, ""); /* no progress line: stderr is not a terminal */
+    for (int i = 0; i < RESULT_COUNT; i++) {
+        const path file = path_in(&f->out, result_names[i]);
+        assert_true(file_exists(&file));
+    }
+    const path stats = path_in(&f->out, "stats.jsonl"), last = path_in(&f->out, "obj/frame_00007.obj"),
+               none = path_in(&f->out, "obj/frame_00008.obj");
+    assert_int_equal(count_lines(&stats), 7);
+    assert_int_equal(frames_of(f), 8);
+    assert_true(file_exists(&last) && !file_exists(&none));
+    assert_is_png(f, "frames.png");
+    assert_is_png(f, "plots.png");
+    json_t *summary = load_result(f, "summary.json"), *scene = load_result(f, "scene.json");
+    const json_t *invariants = json_object_get(summary, "invariants");
+    assert_string_equal(text_of(summary, "status"), "OK");
+    assert_int_equal(json_integer_value(json_object_get(summary, "steps_taken")), 7);
+    assert_int_equal(json_integer_value(json_object_get(summary, "threads")), 2);
+    assert_string_equal(text_of(invariants, "M1"), "holds");
+    assert_string_equal(text_of(invariants, "M2"), "holds");
+    assert_string_equal(text_of(invariants, "M3"), "holds");
+    assert_string_equal(text_of(invariants, "M6"), "holds");
+    assert_string_equal(text_of(invariants, "M8"), "holds");
+    assert_string_equal(text_of(json_object_get(summary, "scene"), "name"), "scene");
+    assert_int_equal(json_integer_value(json_object_get(scene, "steps")), 7);
+    assert_non_null(strstr(text_of(summary, "command"), "--steps 7 --obj"));
+    json_decref(summary);
+    json_decref(scene);
+}
+
+static void test_default_folder(void **state)
+{
+    const fixture *f = *state;
+    char here[PATH_MAX];
+    assert_non_null(getcwd(here, sizeof here));
+    assert_int_equal(chdir(f->folder.text), 0);
+    const outcome o = cipc(f, "run", "scene.json", "--steps=1", "-q", NULL);
+    assert_int_equal(chdir(here), 0);
+    assert_int_equal(o.exit_status, 0);
+    const path summary = path_in(&f->folder, "out/scene/summary.json");
+    assert_true(file_exists(&summary));
+}
+
+static void test_run_without_monitors_claims_nothing(void **state)
+{
+    const fixture *f = *state;
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--no-monitor", NULL).exit_status, 0);
+    json_t *summary = load_result(f, "summary.json");
+    const char *key;
+    json_t *verdict;
+    json_object_foreach(json_object_get(summary, "invariants"), key, verdict) {
+        assert_string_equal(json_string_value(verdict), "not checked");
+    }
+    json_decref(summary);
+}
+
+/* A new run in the same folder: nothing of the longer, failed one before it remains. */
+static void test_new_run_removes_stale_results(void **state)
+{
+    const fixture *f = *state;
+    outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--obj", NULL);
+    assert_int_equal(o.exit_status, 0);
+    static const char *const names[] = {"violation.obj", "violation.json", "failed.obj", "obj/frame_00001.obj", "obj/frame_00005.obj"};
+    enum { STALE = sizeof names / sizeof names[0] };
+    for (int i = 0; i < STALE - 2; i++) {
+        const path file = path_in(&f->out, names[i]);
+        file_write(&file, "", 0);
+    }
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--steps=0", NULL);
+    assert_int_equal(o.exit_status, 0);
+    for (int i = 0; i < STALE; i++) {
+        const path file = path_in(&f->out, names[i]);
+        assert_false(file_exists(&file));
+    }
+    assert_int_equal(frames_of(f), 1);
+    json_t *summary = load_result(f, "summary.json");
+    assert_string_equal(text_of(json_object_get(summary, "invariants"), "M1"), "not checked"); /* there was no point to look at */
+    json_decref(summary);
+}
+
+static void test_no_convergence(void **state)
+{
+    const fixture *f = *state;
+    const outcome o =
+        cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "newton.iterations=1", "--set", "newton.tolerance=1e-12", NULL);
+    assert_message(&o, 1, "CIPC-1003", "step 0");
+    json_t *summary = load_result(f, "summary.json");
+    assert_string_equal(text_of(summary, "status"), "NOT_CONVERGED");
+    assert_true(json_is_false(json_object_get(summary, "converged")));
+    const path failed = path_in(&f->out, "failed.obj"), violation = path_in(&f->out, "violation.obj");
+    assert_true(file_exists(&failed));
+    assert_false(file_exists(&violation));
+    assert_is_png(f, "plots.png");
+    json_decref(summary);
+}
+
+static void test_unwritable_folder(void **state)
+{
+    const fixture *f = *state;
+    const path inside_a_file = path_in(&f->scene, "out"); /* also root cannot make that */
+    const outcome o = cipc(f, "run", f->scene.text, "-o", inside_a_file.text, NULL);
+    assert_message(&o, 1, "CIPC-1002", "scene.json");
+    const outcome is_file = cipc(f, "run", f->scene.text, "-o", f->scene.text, NULL);
+    assert_message(&is_file, 1, "CIPC-1002", "scene.json");
+}
+
+/* A limit on the size of files stands in for a full disk: whatever is cut short, the program ends by itself with status 1 and says so. */
+static void test_no_space(void **state)
+{
+    const fixture *f = *state;
+    const rlim_t limits[] = {100, 5000, 20000, 32000}; /* the last lets the trajectory through, not the pictures */
+    for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) {
+        struct rlimit before, lowered;
+        assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
+        lowered = (struct rlimit){limits[i], before.rlim_max};
+        signal(SIGXFSZ, SIG_IGN);
+        assert_int_equal(setrlimit(RLIMIT_FSIZE, &lowered), 0);
+        const outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, NULL);
+        setrlimit(RLIMIT_FSIZE, &before);
+        signal(SIGXFSZ, SIG_DFL);
+        assert_int_equal(o.exit_status, 1);
+        assert_true(limits[i] < 1000 || strstr(o.err, "CIPC-1002") != NULL); /* below, the message itself may not fit into its file */
+    }
+    json_t *summary = load_result(f, "summary.json");
+    assert_string_equal(text_of(summary, "status"), "IO");
+    assert_int_equal(json_integer_value(json_object_get(summary, "steps_taken")), 5);
+    json_decref(summary);
+}
+
+static void test_full_standard_output(void **state)
+{
+    const fixture *f = *state;
+    const path out = path_in(&f->folder, "stdout"), err = path_in(&f->folder, "stderr");
+    const pid_t child = fork();
+    if (child == 0) {
+        dup2(open("/dev/full", O_WRONLY), STDOUT_FILENO);
+        dup2(open(err.text, O_WRONLY | O_CREAT, 0600), STDERR_FILENO);
+        execl(f->program, f->program, "scenes", "--json", (char *)NULL);
+        _exit(126);
+    }
+    file_write(&out, "", 0);
+    const outcome o = await(f, child);
+    assert_message(&o, 1, "CIPC-1002", "standard output");
+}
+
+static void test_progress_on_a_terminal(void **state)
+{
+    const fixture *f = *state;
+    for (int quiet = 0; quiet < 2; quiet++) {
+        const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
+        assert_true(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);
+        const int end = open(ptsname(terminal), O_RDWR | O_NOCTTY);
+        const pid_t child = fork();
+        if (child == 0) {
+            dup2(end, STDERR_FILENO);
+            close(terminal);
+            execl(f->program, f->program, "run", f->scene.text, "-o", f->out.text, quiet ? "-q" : "--steps=3", (char *)NULL);
+            _exit(126);
+        }
+        close(end);
+        char text[8192];
+        size_t length = 0;
+        ssize_t got = 0;
+        while (length < sizeof text - 1 && (got = read(terminal, text + length, sizeof text - 1 - length)) > 0) {
+            length += (size_t)got;
+        }
+        text[length] = '\0';
+        int how;
+        assert_int_equal(waitpid(child, &how, 0), child);
+        assert_true(WIFEXITED(how) && WEXITSTATUS(how) == 0);
+        if (quiet) {
+            assert_int_equal(length, 0);
+        } else {
+            assert_non_null(strstr(text, "step 1/3"));
+            assert_non_null(strstr(text, "step 3/3"));
+        }
+        close(terminal);
+    }
+}
+
+/* ---- Interruption and resuming ------------------------------------------------------------------------------------------------ */
+
+/* Run for very many steps; once statistics have been written `writes` times, send the signal. No waiting by the clock: the system tells. */
+static outcome interrupt(const fixture *f, int signal_number, int writes)
+{
+    const path parent = path_in(&f->folder, "new");
+    (void)mkdir(parent.text, 0700);
+    (void)mkdir(f->out.text, 0700);
+    const int watch = inotify_init1(IN_CLOEXEC);
+    assert_true(watch >= 0 && inotify_add_watch(watch, f->out.text, IN_MODIFY) >= 0);
+    const pid_t child = cipc_in_background(f, "run", f->scene.text, "-o", f->out.text, "--steps=1000000", NULL);
+    for (int seen = 0; seen < writes;) {
+        _Alignas(struct inotify_event) char events[4096];
+        const ssize_t length = read(watch, events, sizeof events);
+        assert_true(length > 0);
+        for (const char *at = events; at < events + length;) {
+            const struct inotify_event *event = (const void *)at;
+            seen += event->len > 0 && strcmp(event->name, "stats.jsonl") == 0;
+            at += sizeof *event + event->len;
+        }
+    }
+    close(watch);
+    assert_int_equal(kill(child, signal_number), 0);
+    return await(f, child);
+}
+
+static double *last_positions(const fixture *f, int *frames, int *numbers)
+{
+    cipc_error error;
+    const path h5 = path_in(&f->out, "trajectory.h5");
+    enum { NODES = 9 + 4 };
+    double *x = calloc(3 * NODES, sizeof *x), time;
+    *numbers = 3 * NODES;
+    *frames = frames_of(f);
+    if (cipc_trajectory_read(h5.text, *frames - 1, x, NODES, &time, &error) != CIPC_OK) {
+        fail_msg("%s: %s", error.place, error.what);
+    }
+    return x;
+}
+
+/* The frames that an interrupted and resumed run ends with are those of a run in one go, bit for bit. */
+static void resume_and_compare(const fixture *f, int more)
+{
+    char steps[32];
+    int frames, numbers, frames_in_one_go;
+    const int before = frames_of(f);
+    snprintf(steps, sizeof steps, "--steps=%d", before - 1 + more);
+    const outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--resume", steps, NULL);
+    assert_string_equal(o.err, "");
+    assert_int_equal(o.exit_status, 0);
+    double *resumed = last_positions(f, &frames, &numbers);
+    assert_int_equal(frames, before + more);
+    const path stats = path_in(&f->out, "stats.jsonl");
+    assert_int_equal(count_lines(&stats), frames - 1);
+    json_t *summary = load_result(f, "summary.json");
+    assert_int_equal(json_integer_value(json_object_get(summary, "resumed_from")), before - 1);
+    assert_int_equal(json_integer_value(json_object_get(summary, "steps_taken")), frames - 1);
+    assert_string_equal(text_of(json_object_get(summary, "invariants"), "M2"), "holds");
+    const json_int_t points = json_integer_value(json_object_get(json_object_get(summary, "monitors"), "points_checked"));
+    json_decref(summary);
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, steps, NULL).exit_status, 0);
+    double *in_one_go = last_positions(f, &frames_in_one_go, &numbers);
+    assert_int_equal(frames_in_one_go, frames);
+    assert_memory_equal(resumed, in_one_go, (size_t)numbers * sizeof *resumed);
+    summary = load_result(f, "summary.json");
+    assert_int_equal(json_integer_value(json_object_get(json_object_get(summary, "monitors"), "points_checked")), points);
+    json_decref(summary);
+    free(resumed);
+    free(in_one_go);
+}
+
+static void test_interrupted_run(void **state)
+{
+    const fixture *f = *state;
+    const int signals[] = {SIGINT, SIGTERM};
+    for (int i = 0; i < 2; i++) {
+        const outcome o = interrupt(f, signals[i], 5);
+        assert_int_equal(o.exit_status, 1);
+        assert_non_null(strstr(o.err, "interrupted"));
+        assert_non_null(strstr(o.err, "--resume"));
+        json_t *summary = load_result(f, "summary.json");
+        assert_string_equal(text_of(summary, "status"), "INTERRUPTED");
+        assert_int_equal(json_integer_value(json_object_get(summary, "steps_taken")), frames_of(f) - 1);
+        json_decref(summary);
+        assert_is_png(f, "frames.png");
+        resume_and_compare(f, 3);
+    }
+}
+
+static void test_killed_run(void **state)
+{
+    const fixture *f = *state;
+    for (int writes = 1; writes <= 9; writes += 4) {
+        const outcome o = interrupt(f, SIGKILL, writes);
+        assert_int_equal(o.exit_status, -1);
+        assert_true(frames_of(f) >= writes - 1);
+        resume_and_compare(f, 2);
+    }
+}
+
+static void test_resume_refusals(void **state)
+{
+    const fixture *f = *state;
+    outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--resume", NULL);
+    assert_message(&o, 2, "CIPC-2007", "start without --resume");
+    assert_nothing_written(f);
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, NULL).exit_status, 0);
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--resume", "--set", "contact.dhat=2e-3", NULL);
+    assert_message(&o, 2, "CIPC-2012", "contact.dhat");
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--resume", NULL); /* nothing left to do */
+    assert_int_equal(o.exit_status, 0);
+    assert_int_equal(frames_of(f), 6);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_help_and_version, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_bad_usage, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_scenes, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_bad_scenes, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_bad_scene_leaves_earlier_results, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_good_run_writes_everything, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_default_folder, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_run_without_monitors_claims_nothing, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_new_run_removes_stale_results, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_no_convergence, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_unwritable_folder, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_no_space, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_full_standard_output, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_progress_on_a_terminal, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_interrupted_run, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_killed_run, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_resume_refusals, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

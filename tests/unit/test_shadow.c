@@ -1,0 +1,113 @@
+/* Shadows: where something is in the light's way, and nowhere else. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <stdlib.h>
+
+#include "output/shadow.h"
+#include "output/surface_look.h"
+#include "support/failing_memory.h"
+#include "support/sample_run.h"
+
+enum { SIZE = 60, SAMPLES = SIZE * CIPC_RASTER_SAMPLES };
+
+/* The sample run from obliquely above, lit from straight above: the ground (2 x 2, at y = 0) and the cloth (1 x 1, at y = 0.2). */
+typedef struct view {
+    sample_run run;
+    cipc_bounds bounds;
+    cipc_camera camera;
+    cipc_raster raster;
+} view;
+
+static view look(void)
+{
+    view v = {.run = sample_run_create(), .bounds = cipc_bounds_empty()};
+    const int nodes = v.run.model->node_count;
+    for (int i = 0; i < nodes; i++) {
+        cipc_bounds_add(&v.bounds, v.run.state->position + 3 * i);
+    }
+    v.camera = cipc_camera_look(&v.bounds, 0.3, 0.5, 1);
+    for (int i = 0; i < nodes; i++) {
+        cipc_camera_fit(&v.camera, v.run.state->position + 3 * i);
+    }
+    cipc_camera_settle(&v.camera, &v.bounds, 1);
+    assert_true(cipc_raster_init(&v.raster, SIZE, SIZE));
+    cipc_raster_clear(&v.raster, (cipc_colour){0, 0, 0}, (cipc_colour){0, 0, 0});
+    double *normals = calloc(3 * (size_t)nodes, sizeof *normals);
+    cipc_surface_draw(&v.raster, v.run.model, v.run.state->position, &v.camera, normals);
+    free(normals);
+    return v;
+}
+
+static void forget(view *v)
+{
+    sample_run_destroy(&v->run);
+    cipc_raster_free(&v->raster);
+}
+
+/* Light at the sample that shows a point; the point must be visible there. */
+static double light_at(const view *v, double x, double y, double z)
+{
+    double seen[3];
+    cipc_camera_see(&v->camera, (const double[3]){x, y, z}, seen);
+    const int column = (int)(SAMPLES * (0.5 + 0.5 * seen[0] / seen[2] / v->camera.slope_x));
+    const int row = (int)(SAMPLES * (0.5 - 0.5 * seen[1] / seen[2] / v->camera.slope_y));
+    const size_t i = (size_t)(row * SAMPLES + column);
+    const double one_sample = 0.05; /* relative: how much the depth may change over a sample */
+    assert_true(fabs(v->raster.depth[i] * seen[2] - 1) < one_sample);
+    return v->raster.light[i][0];
+}
+
+static void test_light_from_above(void **state)
+{
+    (void)state;
+    const double above[3] = {0, 1, 0};
+    const struct { double x, y, z, in_shadow; } points[] = {
+        {0, 0.2, 0, 0}, {-0.4, 0.2, -0.4, 0}, {0.4, 0.2, 0.4, 0}, /* on the cloth: it does not shade itself */
+        {0.8, 0, 0.8, 0}, {-0.8, 0, 0.6, 0}, {0, 0, 0.9, 0},      /* on the ground, outside */
+        {0, 0, 0.48, 1}, {0.3, 0, 0.47, 1}, {-0.3, 0, 0.47, 1},   /* on the ground, below the cloth's front edge */
+    };
+    enum { POINTS = sizeof points / sizeof points[0] };
+    view v = look();
+    double before[POINTS];
+    for (int i = 0; i < POINTS; i++) {
+        before[i] = light_at(&v, points[i].x, points[i].y, points[i].z);
+    }
+    assert_true(cipc_shadow_cast(&v.raster, v.run.model, v.run.state->position, &v.camera, &v.bounds, above));
+    for (int i = 0; i < POINTS; i++) {
+        const double after = light_at(&v, points[i].x, points[i].y, points[i].z);
+        if (points[i].in_shadow ? after >= before[i] : after != before[i]) {
+            fail_msg("point %d: light %g, then %g", i, before[i], after);
+        }
+    }
+    forget(&v);
+}
+
+static void test_nothing_in_the_way(void **state)
+{
+    (void)state;
+    view v = look();
+    const cipc_bounds empty = cipc_bounds_empty();
+    const double below[3] = {0, -1, 0}, before = light_at(&v, 0.8, 0, 0.8);
+    assert_true(cipc_shadow_cast(&v.raster, v.run.model, v.run.state->position, &v.camera, &empty, below));
+    assert_true(light_at(&v, 0.8, 0, 0.8) == before); /* no subject, no shadows */
+    assert_true(cipc_shadow_cast(&v.raster, v.run.model, v.run.state->position, &v.camera, &v.bounds, below));
+    assert_true(light_at(&v, 0.8, 0, 0.8) == before); /* of the ground, the light from below meets the ground first */
+    fail_allocation(1);
+    assert_false(cipc_shadow_cast(&v.raster, v.run.model, v.run.state->position, &v.camera, &v.bounds, below));
+    fail_allocation(0);
+    forget(&v);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_light_from_above),
+        cmocka_unit_test(test_nothing_in_the_way),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
