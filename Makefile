@@ -94,6 +94,7 @@ coverage: ## line coverage per folder of src/; fails below 95 % in geometry, ene
 	@ci/coverage $(BUILD)/coverage
 
 SANITIZE_FLAGS := -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
+sanitize: export LSAN_OPTIONS = suppressions=$(CURDIR)/ci/lsan.supp:print_suppressions=0
 sanitize: ## every test under the address and undefined-behaviour sanitizers (build/sanitize)
 	$(SUBMAKE) verdict BUILD=$(BUILD)/sanitize CHECKS= WERROR= OPTIMIZE='-O1 -g' CFLAGS='$(SANITIZE_FLAGS) $(CFLAGS)' \
 	    LDFLAGS='$(SANITIZE_FLAGS) $(LDFLAGS)' SHARED_LDFLAGS=

@@ -1,5 +1,5 @@
-/* A shadow map: the surfaces drawn once more as the light sees them, in parallel projection, depths only. A sample of the picture is in shadow
- * if the map has something nearer to the light on its way. */
+/* A shadow map: the surfaces drawn once more as the light sees them, in parallel projection, depths only. A sample of the picture is in
+ * shadow if the map has something nearer to the light on its way. */
 #include "output/shadow.h"
 
 #include <math.h>
@@ -48,8 +48,9 @@ static void draw_map(light_view *view, const cipc_model *model, const double *po
     cipc_raster_clear(&view->map, none, none);
     for (int t = 0; t < model->triangle_count; t++) {
         const int *n = model->triangles[t];
-        const cipc_raster_corner c[3] = {in_map(view, position + 3 * n[0]), in_map(view, position + 3 * n[1]), in_map(view, position + 3 * n[2])};
-        cipc_raster_triangle(&view->map, c, none, 0);
+        const double *a = position + 3 * n[0], *b = position + 3 * n[1], *c = position + 3 * n[2];
+        const cipc_raster_corner corners[3] = {in_map(view, a), in_map(view, b), in_map(view, c)};
+        cipc_raster_triangle(&view->map, corners, none, 0);
     }
 }
 

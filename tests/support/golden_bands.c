@@ -52,6 +52,9 @@ golden_bands golden_derive(int runs, const double (*quantity)[QUANTITY_COUNT], g
         const bool cost = q == QUANTITY_newton_iterations;
         bands.low[q] = cost ? floor(low / newton_factor) : low - more;
         bands.high[q] = cost ? ceil(high * newton_factor) : high + more;
+        if (q == QUANTITY_contacts || q == QUANTITY_elastic_energy) {
+            bands.low[q] = fmax(bands.low[q], 0);
+        }
     }
     return bands;
 }

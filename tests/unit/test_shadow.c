@@ -66,7 +66,7 @@ static void test_light_from_above(void **state)
 {
     (void)state;
     const double above[3] = {0, 1, 0};
-    const struct { double x, y, z, in_shadow; } points[] = {
+    const struct { double x, y, z; int in_shadow; } points[] = {
         {0, 0.2, 0, 0}, {-0.4, 0.2, -0.4, 0}, {0.4, 0.2, 0.4, 0}, /* on the cloth: it does not shade itself */
         {0.8, 0, 0.8, 0}, {-0.8, 0, 0.6, 0}, {0, 0, 0.9, 0},      /* on the ground, outside */
         {0, 0, 0.48, 1}, {0.3, 0, 0.47, 1}, {-0.3, 0, 0.47, 1},   /* on the ground, below the cloth's front edge */
@@ -80,7 +80,7 @@ static void test_light_from_above(void **state)
     assert_true(cipc_shadow_cast(&v.raster, v.run.model, v.run.state->position, &v.camera, &v.bounds, above));
     for (int i = 0; i < POINTS; i++) {
         const double after = light_at(&v, points[i].x, points[i].y, points[i].z);
-        if (points[i].in_shadow ? after >= before[i] : after != before[i]) {
+        if (points[i].in_shadow == 1 ? after >= before[i] : after != before[i]) {
             fail_msg("point %d: light %g, then %g", i, before[i], after);
         }
     }
