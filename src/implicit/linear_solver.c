@@ -90,7 +90,11 @@ static cipc_status make_order(cipc_linear_solver *s, const cipc_block_matrix *A,
     s->common.method[1].ordering = CHOLMOD_METIS;
     s->common.supernodal = CHOLMOD_SIMPLICIAL;
     cholmod_factor *symbolic = cholmod_analyze(&graph, &s->common);
-    if (!symbolic) return solver_error(s, "order the matrix", error);
+    if (!symbolic) {
+        cipc_free(s->order);
+        s->order = NULL;
+        return solver_error(s, "order the matrix", error);
+    }
     const int *block_order = symbolic->Perm;
     for (int k = 0; k < 3 * A->n; k++) s->order[k] = 3 * block_order[k / 3] + k % 3;
     cholmod_free_factor(&symbolic, &s->common);
@@ -108,7 +112,6 @@ static cipc_status analyze_in_order(cipc_linear_solver *s, const cipc_block_matr
     s->common.supernodal = CHOLMOD_AUTO;
     cholmod_free_factor(&s->factor, &s->common);
     s->factor = cholmod_analyze_p(&view, s->order, NULL, 0, &s->common);
-    if (s->in_halves) return cipc_split_factor_entries(s->split);
     return s->factor ? CIPC_OK : solver_error(s, "analyse the matrix", error);
 }
 

@@ -9,6 +9,8 @@
 #include <lapacke.h>
 #include <string.h>
 
+#include "implicit/blas_threads.h"
+
 /* Fewer block rows than this are factorised faster whole. */
 enum { SMALLEST_SPLIT = 256 };
 /* A separator larger than this share of the block rows costs more than the halves save. */
@@ -34,6 +36,7 @@ typedef struct half {
 
 struct cipc_split_factor {
     half halves[2];
+    bool together;   /* the halves may be computed at the same time */
     int n, separator_count, fresh_separator;
     int *side;       /* block -> 0, 1, or 2: separator */
     int *local;      /* block -> local block in its half, or index in the separator */
@@ -47,6 +50,7 @@ cipc_status cipc_split_factor_create(cipc_split_factor **split, cipc_error *erro
     cipc_split_factor *s = cipc_alloc(1, sizeof *s);
     *split = s;
     if (!s) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "linear solver", "no memory");
+    s->together = cipc_blas_one_thread();
     for (int h = 0; h < 2; h++) {
         cholmod_start(&s->halves[h].common);
         s->halves[h].common.print = 0;
@@ -339,10 +343,15 @@ cipc_status cipc_split_factor_analyze(cipc_split_factor *s, const cipc_block_mat
     if (fresh) status = make_partition(s, A, error);
     if (status) free_partition(s);
     if (status || count_separator(s) > largest_separator * A->n) return status;
-    return analyze_halves(s, A, worthwhile, error);
+    status = analyze_halves(s, A, worthwhile, error);
+    *worthwhile = *worthwhile && !status;
+    return status;
 }
 
 /* --- values ------------------------------------------------------------------------------------------------------------------------ */
+
+/* How many halves are worked on at the same time: see blas_threads.h. */
+static int at_once(const cipc_split_factor *s, int threads) { return threads < 2 || !s->together ? 1 : 2; }
 
 /* T from the supernodes that hold the separator's columns. */
 static void extract_triangle(half *a)
@@ -387,7 +396,7 @@ static void join(cipc_split_factor *s)
 
 cipc_status cipc_split_factor_factorize(cipc_split_factor *s, const cipc_block_matrix *A, int threads, bool *definite, cipc_error *error)
 {
-#pragma omp parallel for num_threads(threads < 2 ? 1 : 2) schedule(static, 1)
+#pragma omp parallel for num_threads(at_once(s, threads)) schedule(static, 1)
     for (int h = 0; h < 2; h++) factorize_half(&s->halves[h], A);
     *definite = false;
     for (int h = 0; h < 2; h++)
@@ -433,7 +442,7 @@ static void backward(half *a, const double *joint, double *x)
 cipc_status cipc_split_factor_solve(cipc_split_factor *s, const double *b, double *x, int threads, cipc_error *error)
 {
     int m = 3 * s->separator_count;
-#pragma omp parallel for num_threads(threads < 2 ? 1 : 2) schedule(static, 1)
+#pragma omp parallel for num_threads(at_once(s, threads)) schedule(static, 1)
     for (int h = 0; h < 2; h++) forward(&s->halves[h], b);
     for (int q = 0; q < m; q++) s->joint[q] = b[3 * s->separator[q / 3] + q % 3];
     for (int h = 0; h < 2; h++) {
@@ -441,7 +450,7 @@ cipc_status cipc_split_factor_solve(cipc_split_factor *s, const double *b, doubl
         for (int q = 0; q < m; q++) s->joint[q] += s->halves[h].values[3 * s->halves[h].own + q];
     }
     if (m) LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', m, 1, s->schur, m, s->joint, m);
-#pragma omp parallel for num_threads(threads < 2 ? 1 : 2) schedule(static, 1)
+#pragma omp parallel for num_threads(at_once(s, threads)) schedule(static, 1)
     for (int h = 0; h < 2; h++) backward(&s->halves[h], s->joint, x);
     for (int h = 0; h < 2; h++)
         if (s->halves[h].status) return half_error(&s->halves[h], error);

@@ -5,9 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
-/* A band reaches this many spreads of the runs beyond the smallest and the largest of them. The spread of eight normal deviates is about 2.8
- * standard deviations, so the band ends about 7 from the mean: another run as good as these misses it hardly ever, even where
- * the spread was underestimated by half. */
+/* A band reaches this many spreads of the runs beyond the smallest and the largest of them. The spread of eight normal deviates is about
+ * 2.8 standard deviations, so the band ends about 7 from the mean: another run as good as these misses it hardly ever, even where the
+ * spread was underestimated by half. */
 static const double widening = 2;
 /* Floors, for quantities in which the runs hardly differ. A stretch: this part of its excess over 1. */
 static const double stretch_floor = 0.01;
@@ -59,7 +59,7 @@ golden_bands golden_derive(int runs, const double (*quantity)[QUANTITY_COUNT], g
     return bands;
 }
 
-/* ---- The check -------------------------------------------------------------------------------------------------------------- */
+/* ---- The check ------------------------------------------------------------------------------------------------------------- */
 
 bool golden_accepts(const golden_bands *bands, const double quantity[QUANTITY_COUNT], char why[GOLDEN_REASON])
 {

@@ -45,7 +45,7 @@ typedef struct scene_outcome {
     double max_stretch, max_stretch_ratio; /* at any accepted point */
     long exact_gap_checks, exact_strain_checks;
     int max_contacts;
-    double max_friction;               /* J: largest friction term of the incremental potential at the end of a step; > 0: friction was active */
+    double max_friction;               /* J: largest friction term of a step's incremental potential; > 0: friction was active */
     double time_step, tolerance, moving_mass; /* s, m/s, kg */
     double travel;                     /* m, of the centre of mass */
     double speed;                      /* m/s, of the centre of mass at the end */
