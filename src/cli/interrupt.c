@@ -1,32 +1,35 @@
-/* SIGINT and SIGTERM, polled. */
+/* SIGINT and SIGTERM as a flag. The flag is the program's one writable static: a handler has no argument to take it by, and blocking the signals
+ * instead would not do, since threads made before main (OpenBLAS's) would still receive them. */
 #include "cli/interrupt.h"
 
 #include <signal.h>
-#include <stddef.h>
-#include <time.h>
+#include <string.h>
 
-static sigset_t both(void)
+static volatile sig_atomic_t interrupt_arrived;
+
+static void note(int number)
 {
-    sigset_t set;
-    sigemptyset(&set);
-    sigaddset(&set, SIGINT);
-    sigaddset(&set, SIGTERM);
-    return set;
+    (void)number;
+    interrupt_arrived = 1;
 }
 
-void cipc_interrupt_hold(void)
+static void set_handler(void (*handler)(int))
 {
-    const sigset_t set = both();
-    sigprocmask(SIG_BLOCK, &set, NULL);
+    struct sigaction action;
+    memset(&action, 0, sizeof action);
+    action.sa_handler = handler;
+    action.sa_flags = SA_RESTART; /* a write under way is finished */
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
 }
+
+void cipc_interrupt_hold(void) { set_handler(note); }
 
 bool cipc_interrupt_seen(void)
 {
-    const sigset_t set = both();
-    const struct timespec no_time = {0, 0};
-    if (sigtimedwait(&set, NULL, &no_time) < 0) {
-        return false;
-    }
-    sigprocmask(SIG_UNBLOCK, &set, NULL);
+    if (!interrupt_arrived) return false;
+    interrupt_arrived = 0;
+    set_handler(SIG_DFL);
     return true;
 }

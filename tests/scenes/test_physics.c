@@ -1,4 +1,5 @@
-/* Scenes with known answers (SPEC E): free fall, momentum, resting gap and stack, incline and stopping distance, the hung strip with its strain limit, symmetry. */
+/* Scenes with known answers (SPEC E): free fall, momentum, resting gap and stack, incline and stopping distance, the hung strip with its
+ * strain limit, symmetry. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -15,7 +16,10 @@
 static const double g = 9.81;
 static const double origin[3] = {0, 0, 0};
 
-static double fall_of(const sheet_scene *scene, int node, int k, const double *start) { return scene->state->position[3 * node + k] - start[3 * node + k]; }
+static double fall_of(const sheet_scene *scene, int node, int k, const double *start)
+{
+    return scene->state->position[3 * node + k] - start[3 * node + k];
+}
 
 /* --- E1: free fall ------------------------------------------------------------------------------------------------------------------ */
 
@@ -70,10 +74,10 @@ static void test_free_fall_midpoint(void **state)
 
 /* --- E2: momentum ------------------------------------------------------------------------------------------------------------------- */
 
-/* A full Newton step makes the sum of the gradient zero whatever the iterate: elastic, barrier and projected Hessian terms sum to zero over the nodes, so after it
- *     sum g(x + p) = sum g(x) + sum m p = -sum (H p) + sum m p = 0,
- * up to the residual of the linear solution and the rounding of the forces. Both are some 10 u of what they are made of: forces h^2 f ~ m v h in a collision, so
- * 1e-14 of sum m |v| a step, and 1e-12 with the factor by which stiff parts exceed that. */
+/* A full Newton step makes the sum of the gradient zero whatever the iterate: elastic, barrier and projected Hessian terms sum to zero over
+ * the nodes, so after it sum g(x + p) = sum g(x) + sum m p = -sum (H p) + sum m p = 0, up to the residual of the linear solution and the
+ * rounding of the forces. Both are some 10 u of what they are made of: forces h^2 f ~ m v h in a collision, so 1e-14 of sum m |v| a step,
+ * and 1e-12 with the factor by which stiff parts exceed that. */
 static const double momentum_tolerance = 1e-12;
 
 static void momentum_of(const sheet_scene *scene, double sum[3], double *size)
@@ -115,13 +119,14 @@ static void test_momentum(void **state)
             assert_true(fabs(after[k] - first[k]) <= n * momentum_tolerance * first_size);
         }
     }
-    assert_true(contacts >= 2);                        /* they did collide, */
+    assert_true(contacts >= 2);                            /* they did collide, */
     assert_true(scene.state->velocity[3 * 16 + 1] > -0.5); /* and the upper one was turned back */
     assert_int_equal(scene.energy_rises, 0);
     sheet_scene_free(&scene);
 }
 
-/* Angular momentum of a free spinning sheet decays under implicit Euler (SPEC E2: check the decay only) and is kept far better by the midpoint rule. */
+/* Angular momentum of a free spinning sheet decays under implicit Euler (SPEC E2: check the decay only) and is kept far better by the
+ * midpoint rule. */
 static void test_angular_momentum(void **state)
 {
     (void)state;
@@ -144,7 +149,8 @@ static void test_angular_momentum(void **state)
             double L = 0;
             if (n > 0) sheet_step(&scene);
             for (int i = 0; i < 9; i++)
-                L += scene.model->mass[i] * (scene.state->position[3 * i + 2] * scene.state->velocity[3 * i] - scene.state->position[3 * i] * scene.state->velocity[3 * i + 2]);
+                L += scene.model->mass[i] * (scene.state->position[3 * i + 2] * scene.state->velocity[3 * i] -
+                                             scene.state->position[3 * i] * scene.state->velocity[3 * i + 2]);
             if (n == 0) first = L;
             if (!midpoint) assert_true(L < last && L > 0);
             last = L;
@@ -172,21 +178,24 @@ static double resting_gap(double kappa, double xi, double dhat, double load)
     double low = 0, high = dhat;
     for (int k = 0; k < 200; k++) {
         double middle = 0.5 * (low + high);
-        if (contact_force(kappa, xi, dhat, middle) > load) low = middle;
-        else high = middle;
+        if (contact_force(kappa, xi, dhat, middle) > load)
+            low = middle;
+        else
+            high = middle;
     }
     return low;
 }
 
-/* An equilateral triangle of circumradius r at height y around the axis, turned so that nested ones touch nowhere but from node to inside. */
+/* An equilateral triangle of circumradius r at height y around the axis, turned so that nested ones touch nowhere but from node to inside.
+ */
 static cipc_body_description *add_equilateral(sheet_scene *scene, const char *name, double r, double y)
 {
     const double s = 0.5 * sqrt(3) * r, a[3] = {r, y, 0}, b[3] = {-0.5 * r, y, -s}, c[3] = {-0.5 * r, y, s};
     return sheet_add_triangle(scene, name, a, b, c);
 }
 
-/* A contact of stiffness k in a step of implicit Euler relaxes like an overdamped oscillator: with h^2 k >> m the distance from rest shrinks by m / (h^2 k) a step
- * and more; after 200 steps nothing is left but the Newton tolerance, 1e-9 m/s * h, and rounding. */
+/* A contact of stiffness k in a step of implicit Euler relaxes like an overdamped oscillator: with h^2 k >> m the distance from rest
+ * shrinks by m / (h^2 k) a step and more; after 200 steps nothing is left but the Newton tolerance, 1e-9 m/s * h, and rounding. */
 enum { SETTLING_STEPS = 200 };
 static const double gap_tolerance = 1e-10;
 
@@ -221,7 +230,8 @@ static void test_resting_gap(void **state)
         }
 }
 
-/* Nested triangles on one another: interface j carries what is above it, a third of it at each node; each gap is in closed form, and they grow upwards. */
+/* Nested triangles on one another: interface j carries what is above it, a third of it at each node; each gap is in closed form, and they
+ * grow upwards. */
 static void test_stack(void **state)
 {
     (void)state;
@@ -285,10 +295,14 @@ static void incline(sheet_scene *scene, double mu, double angle, double speed)
     for (int i = 3; i < 6; i++) scene->state->position[3 * i + 1] = xi + gap;
 }
 
-static double mean_speed(const sheet_scene *scene) { return (scene->state->velocity[9] + scene->state->velocity[12] + scene->state->velocity[15]) / 3; }
+static double mean_speed(const sheet_scene *scene)
+{
+    return (scene->state->velocity[9] + scene->state->velocity[12] + scene->state->velocity[15]) / 3;
+}
 
-/* Below the threshold: never faster than the creep of SPEC D.6, eps_v (1 - sqrt(1 - F_t / (mu lambda))), and that in the end. The lagged normal force is the exact
- * one to the Newton tolerance 1e-10 m/s * h relative to the gap (1e-8), which moves the creep by 1e-8 / (1 - ratio) of eps_v: 1e-9 m/s is generous. */
+/* Below the threshold: never faster than the creep of SPEC D.6, eps_v (1 - sqrt(1 - F_t / (mu lambda))), and that in the end. The lagged
+ * normal force is the exact one to the Newton tolerance 1e-10 m/s * h relative to the gap (1e-8), which moves the creep by 1e-8 / (1 -
+ * ratio) of eps_v: 1e-9 m/s is generous. */
 static const double creep_tolerance = 1e-9;
 
 static void test_incline_sticks(void **state)
@@ -310,7 +324,8 @@ static void test_incline_sticks(void **state)
     }
 }
 
-/* Above it: once faster than eps_v, each step adds h g (sin a - mu cos a). Relative error of friction 1e-8 as above, of an increment of 1 % of it: 1e-6. */
+/* Above it: once faster than eps_v, each step adds h g (sin a - mu cos a). Relative error of friction 1e-8 as above, of an increment of 1 %
+ * of it: 1e-6. */
 static void test_incline_slides(void **state)
 {
     (void)state;
@@ -354,7 +369,8 @@ static void test_stopping_distance(void **state)
 
 /* --- E7: the hung strip -------------------------------------------------------------------------------------------------------------- */
 
-static const double strip_width = 0.1, strip_thickness = 1e-3, strip_young = 1e4, strip_limit = 1.06, strip_activation = 1, strip_stiffness = 1e3;
+static const double strip_width = 0.1, strip_thickness = 1e-3, strip_young = 1e4, strip_limit = 1.06, strip_activation = 1,
+                    strip_stiffness = 1e3;
 
 /* Force of the uniformly stretched strip (StVK, nu = 0): w t [E (s^2 - 1)/2 s + kappa_s b'(s)] (SPEC E7, C.2). */
 static double strip_force(double s, double kappa)
@@ -369,15 +385,18 @@ static double strip_stretch(double weight, double kappa)
     double low = 1, high = strip_limit;
     for (int k = 0; k < 200; k++) {
         double middle = 0.5 * (low + high);
-        if (strip_force(middle, kappa) < weight) low = middle;
-        else high = middle;
+        if (strip_force(middle, kappa) < weight)
+            low = middle;
+        else
+            high = middle;
     }
     return low;
 }
 
-/* For any weight the strip holds below its limit, at every accepted point, and comes to rest where the forces balance. At rest an error e of the stretch means an
- * unbalanced force; Newton's tolerance, 1e-10 m/s * h over a length of 0.2 m, is 5e-12 of stretch: but the balance is compared through the stretch's distance from the
- * limit, which for the heaviest weight is 1e-5 of the limit, known to the 20 bits of the solver's step and some settling: 1e-4 of that distance is asked. */
+/* For any weight the strip holds below its limit, at every accepted point, and comes to rest where the forces balance. At rest an error e
+ * of the stretch means an unbalanced force; Newton's tolerance, 1e-10 m/s * h over a length of 0.2 m, is 5e-12 of stretch: but the balance
+ * is compared through the stretch's distance from the limit, which for the heaviest weight is 1e-5 of the limit, known to the 20 bits of
+ * the solver's step and some settling: 1e-4 of that distance is asked. */
 static void test_hung_strip(void **state)
 {
     (void)state;
@@ -405,10 +424,12 @@ static void test_hung_strip(void **state)
         for (int n = 0; n < 120; n++) {
             if (sheet_try_step(&scene)) fail_msg("W = %g, step %d: %s", weight, n, scene.error.what);
         }
-        double s = -scene.state->position[3 * 2 + 1] / 0.2, want = strip_stretch(weight, strip_stiffness * scene.report.strain_stiffness_factor);
+        double s = -scene.state->position[3 * 2 + 1] / 0.2,
+               want = strip_stretch(weight, strip_stiffness * scene.report.strain_stiffness_factor);
         assert_true(scene.max_stretch_ratio < 1);
         assert_true(s < strip_limit && s > 1);
-        if (!(fabs(s - want) <= 1e-4 * (strip_limit - want))) fail_msg("W = %g: stretch %.12g, balance at %.12g, factor %g", weight, s, want, scene.report.strain_stiffness_factor);
+        if (!(fabs(s - want) <= 1e-4 * (strip_limit - want)))
+            fail_msg("W = %g: stretch %.12g, balance at %.12g, factor %g", weight, s, want, scene.report.strain_stiffness_factor);
         assert_true(fabs(scene.state->position[3 * 3 + 1] - scene.state->position[3 * 2 + 1]) < 1e-9); /* uniform */
         sheet_scene_free(&scene);
     }
@@ -431,8 +452,8 @@ static void fall_on_wall(image which, int steps, double *positions)
 {
     uint64_t seed = 111;
     sheet_scene scene;
-    double wall[3] = {-0.3, -0.05, -0.3}, wide[3] = {0.8, 0.1, 0.05}, deep[3] = {0.02, 0, 0.8}, first[3] = {0, 0.012, 0}, second[3] = {0.03, 0.02, 0.01}, u[3] = {0.2, 0.02, 0},
-           v[3] = {0, 0, 0.2}, slide[3] = {0.4, -1, 0.1};
+    double wall[3] = {-0.3, -0.05, -0.3}, wide[3] = {0.8, 0.1, 0.05}, deep[3] = {0.02, 0, 0.8}, first[3] = {0, 0.012, 0},
+           second[3] = {0.03, 0.02, 0.01}, u[3] = {0.2, 0.02, 0}, v[3] = {0, 0, 0.2}, slide[3] = {0.4, -1, 0.1};
     double *const all[] = {wall, wide, deep, first, second, u, v, slide};
     for (size_t i = 0; i < sizeof all / sizeof *all; i++) map(which, all[i]);
     sheet_scene_init(&scene);
@@ -455,8 +476,8 @@ static void fall_on_wall(image which, int steps, double *positions)
     sheet_scene_free(&scene);
 }
 
-/* The image of the result is the result of the image, to the Newton tolerance times the number of steps and a factor of growth in collisions: 1e-7 m/s * h * steps
- * is 1e-8 m; the last Newton steps, quadratic, leave far less. */
+/* The image of the result is the result of the image, to the Newton tolerance times the number of steps and a factor of growth in
+ * collisions: 1e-7 m/s * h * steps is 1e-8 m; the last Newton steps, quadratic, leave far less. */
 static void test_symmetry(void **state)
 {
     (void)state;
@@ -481,17 +502,10 @@ static void test_symmetry(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_free_fall_euler),
-        cmocka_unit_test(test_free_fall_midpoint),
-        cmocka_unit_test(test_momentum),
-        cmocka_unit_test(test_angular_momentum),
-        cmocka_unit_test(test_resting_gap),
-        cmocka_unit_test(test_stack),
-        cmocka_unit_test(test_incline_sticks),
-        cmocka_unit_test(test_incline_slides),
-        cmocka_unit_test(test_stopping_distance),
-        cmocka_unit_test(test_hung_strip),
-        cmocka_unit_test(test_symmetry),
+        cmocka_unit_test(test_free_fall_euler),  cmocka_unit_test(test_free_fall_midpoint), cmocka_unit_test(test_momentum),
+        cmocka_unit_test(test_angular_momentum), cmocka_unit_test(test_resting_gap),        cmocka_unit_test(test_stack),
+        cmocka_unit_test(test_incline_sticks),   cmocka_unit_test(test_incline_slides),     cmocka_unit_test(test_stopping_distance),
+        cmocka_unit_test(test_hung_strip),       cmocka_unit_test(test_symmetry),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

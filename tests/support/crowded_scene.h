@@ -1,5 +1,5 @@
-/* A small scene in which every term of the incremental potential is at work, and the slow twin of that potential: long double, straight from the definitions.
- * Header only. */
+/* A small scene in which every term of the incremental potential is at work, and the slow twin of that potential: long double, straight
+ * from the definitions. Header only. */
 #ifndef SUPPORT_CROWDED_SCENE_H
 #define SUPPORT_CROWDED_SCENE_H
 
@@ -20,13 +20,15 @@ static inline void crowded_jolt(sheet_scene *scene, uint64_t *seed, double by)
     for (int i = 0; i < 3 * scene->model->node_count; i++) scene->stepper->x[i] += random_uniform(seed, -by, by);
 }
 
-/* A wall (fixed), over it a cloth with strain limit, over that an StVK sheet with thickness whose last row is prescribed, and a strip on edge that nearly touches
- * the sheet: point-triangle, edge-edge and point-edge contacts, some mollified. The stepper is in the middle of a step: iterate and start of the step differ, the
- * friction data are lagged from a point between them. With `penalty` > 0 the prescribed nodes are pulled. */
+/* A wall (fixed), over it a cloth with strain limit, over that an StVK sheet with thickness whose last row is prescribed, and a strip on
+ * edge that nearly touches the sheet: point-triangle, edge-edge and point-edge contacts, some mollified. The stepper is in the middle of a
+ * step: iterate and start of the step differ, the friction data are lagged from a point between them. With `penalty` > 0 the prescribed
+ * nodes are pulled. */
 static inline void crowded_scene(sheet_scene *scene, uint64_t seed, cipc_integrator integrator, double penalty, int threads)
 {
-    const double h = 0.6 * crowded_dhat, floor[3] = {-0.5, 0, -0.5}, wide[3] = {2, 0, 0}, deep[3] = {0, 0, 2}, u[3] = {0.5, 0, 0}, v[3] = {0, 0, 0.5},
-                 cloth[3] = {0.01, h, 0}, sheet[3] = {0, 2 * h + 0.004, 0.02}, strip[3] = {0.1, 3 * h + 0.006, 0.1}, along[3] = {0.3, 0, 0.21}, up[3] = {0, 0.1, 0};
+    const double h = 0.6 * crowded_dhat, floor[3] = {-0.5, 0, -0.5}, wide[3] = {2, 0, 0}, deep[3] = {0, 0, 2}, u[3] = {0.5, 0, 0},
+                 v[3] = {0, 0, 0.5}, cloth[3] = {0.01, h, 0}, sheet[3] = {0, 2 * h + 0.004, 0.02}, strip[3] = {0.1, 3 * h + 0.006, 0.1},
+                 along[3] = {0.3, 0, 0.21}, up[3] = {0, 0.1, 0};
     static const int held[4] = {16 + 4 + 12, 16 + 4 + 13, 16 + 4 + 14, 16 + 4 + 15};
     sheet_scene_init(scene);
     scene->options.integrator = integrator;
@@ -78,7 +80,10 @@ static inline void real_sub(real r[3], const real *a, const real *b)
 {
     for (int k = 0; k < 3; k++) r[k] = a[k] - b[k];
 }
-static inline real real_dot(const real *a, const real *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+static inline real real_dot(const real *a, const real *b)
+{
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 static inline void real_cross(real r[3], const real *a, const real *b)
 {
     for (int k = 0; k < 3; k++) r[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
@@ -192,26 +197,41 @@ static inline real real_friction(const real *x, const cipc_friction *p)
 }
 
 /* E at x by the definitions (SPEC C.1), with the stepper's own constants: terms in the order of cipc_energy_terms, then the total. */
-enum { REAL_INERTIA = 0, REAL_MEMBRANE, REAL_BENDING, REAL_STRAIN_LIMIT, REAL_BARRIER, REAL_FRICTION, REAL_PENALTY, REAL_TOTAL, REAL_TERMS };
+enum {
+    REAL_INERTIA = 0,
+    REAL_MEMBRANE,
+    REAL_BENDING,
+    REAL_STRAIN_LIMIT,
+    REAL_BARRIER,
+    REAL_FRICTION,
+    REAL_PENALTY,
+    REAL_TOTAL,
+    REAL_TERMS
+};
 
 static inline void real_potential(const cipc_stepper *s, const real *x, real terms[REAL_TERMS])
 {
     const cipc_model *m = s->model;
-    real alpha = s->options.integrator.alpha, beta = s->options.integrator.beta, gamma = s->options.integrator.gamma, h2 = (real)s->options.time_step * s->options.time_step, y[12], z[12];
+    real alpha = s->options.integrator.alpha, beta = s->options.integrator.beta, gamma = s->options.integrator.gamma,
+         h2 = (real)s->options.time_step * s->options.time_step, y[12], z[12];
     memset(terms, 0, REAL_TERMS * sizeof *terms);
-#define GATHER(to, stencil, count, blended)                                                                                                               \
-    for (int k = 0; k < 3 * (count); k++)                                                                                                                 \
-        (to)[k] = (blended) ? beta * x[3 * (stencil)[k / 3] + k % 3] + gamma * s->x_start[3 * (stencil)[k / 3] + k % 3] : x[3 * (stencil)[k / 3] + k % 3]
+#define GATHER(to, stencil, count, blended)                                                                                                \
+    for (int k = 0; k < 3 * (count); k++)                                                                                                  \
+    (to)[k] = (blended) ? beta * x[3 * (stencil)[k / 3] + k % 3] + gamma * s->x_start[3 * (stencil)[k / 3] + k % 3]                        \
+                        : x[3 * (stencil)[k / 3] + k % 3]
     for (int g = 0; g < CIPC_GROUP_COUNT; g++)
         for (int i = 0; i < s->groups[g].count; i++) {
             const int *nodes = s->groups[g].nodes + s->groups[g].energy->nodes * i;
             GATHER(y, nodes, s->groups[g].energy->nodes, true);
             GATHER(z, nodes, s->groups[g].energy->nodes, false);
-            if (g == CIPC_GROUP_NEO_HOOKEAN) terms[REAL_MEMBRANE] += alpha * h2 * real_neo_hookean(y, (const cipc_membrane *)s->groups[g].params + i);
+            if (g == CIPC_GROUP_NEO_HOOKEAN)
+                terms[REAL_MEMBRANE] += alpha * h2 * real_neo_hookean(y, (const cipc_membrane *)s->groups[g].params + i);
             if (g == CIPC_GROUP_STVK) terms[REAL_MEMBRANE] += alpha * h2 * real_stvk(y, (const cipc_membrane *)s->groups[g].params + i);
-            if (g == CIPC_GROUP_HINGE) terms[REAL_BENDING] += alpha * h2 * real_hinge(y, (const cipc_hinge_bending *)s->groups[g].params + i);
+            if (g == CIPC_GROUP_HINGE)
+                terms[REAL_BENDING] += alpha * h2 * real_hinge(y, (const cipc_hinge_bending *)s->groups[g].params + i);
             if (g == CIPC_GROUP_STRAIN_LIMIT)
-                terms[REAL_STRAIN_LIMIT] += alpha * beta * h2 * s->strain_factor * real_strain_limit(z, (const cipc_strain_limit *)s->groups[g].params + i);
+                terms[REAL_STRAIN_LIMIT] +=
+                    alpha * beta * h2 * s->strain_factor * real_strain_limit(z, (const cipc_strain_limit *)s->groups[g].params + i);
         }
     for (int i = 0; i < s->contacts.count; i++) {
         GATHER(z, s->contacts.contacts[i].nodes, s->contacts.contacts[i].count, false);
@@ -223,8 +243,10 @@ static inline void real_potential(const cipc_stepper *s, const real *x, real ter
     }
 #undef GATHER
     for (int i = 0; i < 3 * m->node_count; i++) {
-        if (!s->is_dirichlet[i / 3] || s->options.released) terms[REAL_INERTIA] += (real)m->mass[i / 3] / 2 * (x[i] - s->x_hat[i]) * (x[i] - s->x_hat[i]);
-        if (s->penalty > 0 && s->moves[i / 3]) terms[REAL_PENALTY] += (real)s->penalty * m->mass[i / 3] / 2 * (x[i] - s->target[i]) * (x[i] - s->target[i]);
+        if (!s->is_dirichlet[i / 3] || s->options.released)
+            terms[REAL_INERTIA] += (real)m->mass[i / 3] / 2 * (x[i] - s->x_hat[i]) * (x[i] - s->x_hat[i]);
+        if (s->penalty > 0 && s->moves[i / 3])
+            terms[REAL_PENALTY] += (real)s->penalty * m->mass[i / 3] / 2 * (x[i] - s->target[i]) * (x[i] - s->target[i]);
     }
     for (int t = 0; t < REAL_TOTAL; t++) terms[REAL_TOTAL] += terms[t];
 }

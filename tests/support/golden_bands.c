@@ -65,8 +65,9 @@ bool golden_accepts(const golden_bands *bands, const double quantity[QUANTITY_CO
 {
     for (int q = 0; q < QUANTITY_COUNT; q++) {
         if (!(quantity[q] >= bands->low[q] && quantity[q] <= bands->high[q])) {
-            snprintf(why, GOLDEN_REASON, "%s is %.9g %s, outside its band [%.9g, %.9g]", scene_quantity_name((scene_quantity)q), quantity[q],
-                     scene_quantity_unit((scene_quantity)q), bands->low[q], bands->high[q]);
+            const scene_quantity which = (scene_quantity)q;
+            snprintf(why, GOLDEN_REASON, "%s is %.9g %s, outside its band [%.9g, %.9g]", scene_quantity_name(which), quantity[q],
+                     scene_quantity_unit(which), bands->low[q], bands->high[q]);
             return false;
         }
     }

@@ -19,8 +19,10 @@ static void *copy_of(const void *source, size_t bytes)
 {
     void *block = malloc(bytes ? bytes : 1);
     assert_non_null(block);
-    if (source) memcpy(block, source, bytes);
-    else memset(block, 0, bytes);
+    if (source)
+        memcpy(block, source, bytes);
+    else
+        memset(block, 0, bytes);
     return block;
 }
 
@@ -45,13 +47,19 @@ void sheet_scene_free(sheet_scene *scene)
     memset(scene, 0, sizeof *scene);
 }
 
-cipc_body_description *sheet_add_body(sheet_scene *scene, const char *name, int nodes, const double *rest, int triangles, const int (*triangle)[3])
+cipc_body_description *sheet_add_body(sheet_scene *scene, const char *name, int nodes, const double *rest, int triangles,
+                                      const int (*triangle)[3])
 {
     assert_true(scene->body_count < SHEET_SCENE_BODIES);
     cipc_body_description *d = &scene->bodies[scene->body_count++];
     (void)snprintf(d->name, sizeof d->name, "%s", name);
-    cipc_shell_material material = {.density = 500, .thickness = 1e-3, .membrane = CIPC_MEMBRANE_NEO_HOOKEAN, .membrane_young = 1e5,
-                                    .membrane_poisson = 0.3, .bending_young = 1e5, .bending_poisson = 0.3};
+    cipc_shell_material material = {.density = 500,
+                                    .thickness = 1e-3,
+                                    .membrane = CIPC_MEMBRANE_NEO_HOOKEAN,
+                                    .membrane_young = 1e5,
+                                    .membrane_poisson = 0.3,
+                                    .bending_young = 1e5,
+                                    .bending_poisson = 0.3};
     d->material = material;
     d->node_count = nodes;
     d->triangle_count = triangles;
@@ -62,7 +70,8 @@ cipc_body_description *sheet_add_body(sheet_scene *scene, const char *name, int 
     return d;
 }
 
-cipc_body_description *sheet_add_grid(sheet_scene *scene, const char *name, const double corner[3], const double u[3], const double v[3], int nx, int ny)
+cipc_body_description *sheet_add_grid(sheet_scene *scene, const char *name, const double corner[3], const double u[3], const double v[3],
+                                      int nx, int ny)
 {
     int nodes = (nx + 1) * (ny + 1), cells = 0;
     double *rest = malloc(3 * (size_t)nodes * sizeof *rest);
@@ -101,7 +110,8 @@ void sheet_set_velocity(cipc_body_description *body, const double velocity[3])
 
 void sheet_scene_model(sheet_scene *scene)
 {
-    if (cipc_model_create(&scene->model, scene->bodies, scene->body_count, scene->gravity, &scene->error)) fail_msg("model: %s", scene->error.what);
+    if (cipc_model_create(&scene->model, scene->bodies, scene->body_count, scene->gravity, &scene->error))
+        fail_msg("model: %s", scene->error.what);
     if (cipc_state_create(&scene->state, scene->bodies, scene->body_count, &scene->error)) fail_msg("state: %s", scene->error.what);
 }
 
@@ -121,7 +131,8 @@ void sheet_hold(sheet_scene *scene, const int *nodes, int count, const cipc_moti
 {
     cipc_motion copy = {.end = 0};
     if (motion) copy = *motion;
-    cipc_dirichlet_set set = {.node_count = count, .nodes = (int *)(uintptr_t)nodes, .release = release, .motion_count = motion ? 1 : 0, .motions = &copy};
+    cipc_dirichlet_set set = {
+        .node_count = count, .nodes = (int *)(uintptr_t)nodes, .release = release, .motion_count = motion ? 1 : 0, .motions = &copy};
     if (cipc_model_add_dirichlet(scene->model, &set, &scene->error)) fail_msg("dirichlet: %s", scene->error.what);
 }
 
@@ -147,7 +158,8 @@ static cipc_status look(void *context, const cipc_accepted_point *point, cipc_er
     sheet_scene *scene = context;
     cipc_invariant_report seen;
     cipc_status status = cipc_monitor_check(scene->monitor, point->x, &seen, error);
-    if (!status && point->energy_valid) scene->energy_rises += cipc_monitor_energy(point->energy_before, point->energy_after, point->energy_noise, NULL) != CIPC_OK;
+    if (!status && point->energy_valid)
+        scene->energy_rises += cipc_monitor_energy(point->energy_before, point->energy_after, point->energy_noise, NULL) != CIPC_OK;
     scene->accepted++;
     scene->min_gap = fmin(scene->min_gap, seen.min_gap);
     scene->max_stretch_ratio = fmax(scene->max_stretch_ratio, seen.max_stretch_ratio);

@@ -1,4 +1,5 @@
-/* Small scenes of triangulated sheets, made in memory, for tests of the time step: bodies -> model, state and stepper. Anything that fails ends the test. */
+/* Small scenes of triangulated sheets, made in memory, for tests of the time step: bodies -> model, state and stepper. Anything that fails
+ * ends the test. */
 #ifndef SUPPORT_SHEET_SCENE_H
 #define SUPPORT_SHEET_SCENE_H
 
@@ -17,10 +18,10 @@ typedef struct sheet_scene {
     cipc_stepper *stepper;
     cipc_step_report report; /* of the last step */
     cipc_error error;
-    cipc_monitor *monitor;   /* of sheet_watch */
-    int accepted;            /* points that the monitor saw */
-    int energy_rises;        /* among them: energy went up by more than the noise claimed */
-    double min_gap;          /* least d - xi of all points seen, m; INFINITY: none within reach */
+    cipc_monitor *monitor;    /* of sheet_watch */
+    int accepted;             /* points that the monitor saw */
+    int energy_rises;         /* among them: energy went up by more than the noise claimed */
+    double min_gap;           /* least d - xi of all points seen, m; INFINITY: none within reach */
     double max_stretch_ratio; /* largest (sigma - 1)/(s - 1) */
 } sheet_scene;
 
@@ -29,9 +30,11 @@ void sheet_scene_init(sheet_scene *scene);
 void sheet_scene_free(sheet_scene *scene);
 
 /* A cloth-like material: Neo-Hookean, bending, no strain limit. Change the description that is returned before building. */
-cipc_body_description *sheet_add_body(sheet_scene *scene, const char *name, int nodes, const double *rest, int triangles, const int (*triangle)[3]);
+cipc_body_description *sheet_add_body(sheet_scene *scene, const char *name, int nodes, const double *rest, int triangles,
+                                      const int (*triangle)[3]);
 /* nx * ny cells spanned by u and v from `corner`, two triangles each, nodes row by row along u. */
-cipc_body_description *sheet_add_grid(sheet_scene *scene, const char *name, const double corner[3], const double u[3], const double v[3], int nx, int ny);
+cipc_body_description *sheet_add_grid(sheet_scene *scene, const char *name, const double corner[3], const double u[3], const double v[3],
+                                      int nx, int ny);
 /* One triangle. */
 cipc_body_description *sheet_add_triangle(sheet_scene *scene, const char *name, const double a[3], const double b[3], const double c[3]);
 /* A velocity for every node of a body. */

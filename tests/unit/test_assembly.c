@@ -1,4 +1,5 @@
-/* The assembled Newton matrix: against a dense sum of projected element matrices, against differences of the gradient; its pattern and when it is made anew. */
+/* The assembled Newton matrix: against a dense sum of projected element matrices, against differences of the gradient; its pattern and when
+ * it is made anew. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -13,7 +14,9 @@
 
 enum { MOST_NODES = 64, MOST = 3 * MOST_NODES };
 
-typedef struct dense { double entry[MOST][MOST]; } dense;
+typedef struct dense {
+    double entry[MOST][MOST];
+} dense;
 
 static dense *zero_matrix(void)
 {
@@ -52,11 +55,13 @@ static void add_local(const cipc_stepper *s, const int *nodes, int n, const doub
         }
 }
 
-/* The sum as the theory has it: alpha h^2 beta^2 of elements at the blended point (alpha h^2 beta of the limit at the point), contacts, friction, masses. */
+/* The sum as the theory has it: alpha h^2 beta^2 of elements at the blended point (alpha h^2 beta of the limit at the point), contacts,
+ * friction, masses. */
 static dense *reference(const cipc_stepper *s, bool project)
 {
     dense *d = zero_matrix();
-    double h2 = s->options.time_step * s->options.time_step, alpha = s->options.integrator.alpha, beta = s->options.integrator.beta, gamma = s->options.integrator.gamma;
+    double h2 = s->options.time_step * s->options.time_step, alpha = s->options.integrator.alpha, beta = s->options.integrator.beta,
+           gamma = s->options.integrator.gamma;
     double H[144], y[12];
     for (int g = 0; g < CIPC_GROUP_COUNT; g++) {
         const cipc_element_group *group = &s->groups[g];
@@ -110,7 +115,8 @@ static bool same_matrix(const dense *a, const dense *b, int n, double relative)
     return true;
 }
 
-/* Projections agree to 256 u / sine^2 (test_contact_hessian.c) with sine^2 >= 1e-3 where edges are not mollified; sums of some hundred add a few u: 1e-10. */
+/* Projections agree to 256 u / sine^2 (test_contact_hessian.c) with sine^2 >= 1e-3 where edges are not mollified; sums of some hundred add
+ * a few u: 1e-10. */
 static const double rounding = 1e-10;
 
 static void assert_right_matrix(sheet_scene *scene, bool project)
@@ -156,8 +162,8 @@ static void test_check_rejects(void **state)
     sheet_scene_free(&scene);
 }
 
-/* Without projection it is the Jacobian of the gradient. Central differences with step d = 1e-7: truncation (d / gap)^2 < 1e-8 of the stiffest term, rounding
- * u |grad| / d < 1e-8; ten times both. */
+/* Without projection it is the Jacobian of the gradient. Central differences with step d = 1e-7: truncation (d / gap)^2 < 1e-8 of the
+ * stiffest term, rounding u |grad| / d < 1e-8; ten times both. */
 static const double jacobian_tolerance = 1e-7;
 
 static void test_jacobian(void **state)
@@ -290,8 +296,8 @@ static void test_out_of_memory(void **state)
 
 /* --- as released ---------------------------------------------------------------------------------------------------------------- */
 
-/* The released code projects the limit in F (SPEC R.1). The limit's energy is a convex function of F - the sum of an increasing convex function of its singular
- * values -, so there is nothing to project, and the matrix is the exact Hessian. */
+/* The released code projects the limit in F (SPEC R.1). The limit's energy is a convex function of F - the sum of an increasing convex
+ * function of its singular values -, so there is nothing to project, and the matrix is the exact Hessian. */
 static void test_released_strain_limit(void **state)
 {
     (void)state;
@@ -357,8 +363,13 @@ static void test_released_hinges(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_dense_sum), cmocka_unit_test(test_check_rejects), cmocka_unit_test(test_jacobian), cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_pattern_is_kept), cmocka_unit_test(test_out_of_memory), cmocka_unit_test(test_released_strain_limit),
+        cmocka_unit_test(test_dense_sum),
+        cmocka_unit_test(test_check_rejects),
+        cmocka_unit_test(test_jacobian),
+        cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_pattern_is_kept),
+        cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_released_strain_limit),
         cmocka_unit_test(test_released_hinges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

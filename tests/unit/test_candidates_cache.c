@@ -17,7 +17,8 @@ static void fresh_contacts(const cipc_stepper *s, const double *x, cipc_contact_
     cipc_candidates candidates;
     memset(&candidates, 0, sizeof candidates);
     assert_int_equal(cipc_broad_phase_create(&broad_phase, s->model, NULL), CIPC_OK);
-    assert_int_equal(cipc_broad_phase_find(broad_phase, s->model, x, NULL, 1, s->options.contact.dhat, s->is_dirichlet, 1, &candidates, NULL), CIPC_OK);
+    assert_int_equal(
+        cipc_broad_phase_find(broad_phase, s->model, x, NULL, 1, s->options.contact.dhat, s->is_dirichlet, 1, &candidates, NULL), CIPC_OK);
     assert_int_equal(cipc_contact_set_build(set, s->model, &candidates, x, s->kappa, &s->options.contact, 1, NULL), CIPC_OK);
     cipc_candidates_free(&candidates);
     cipc_broad_phase_destroy(broad_phase);
@@ -56,7 +57,8 @@ static void test_walks(void **state)
         for (int step = 0; step < 30; step++) {
             double p[MOST], x[MOST], size = crowded_dhat * pow(10, random_uniform(&random, -2.5, 1)), drift[3];
             random_fill(&random, drift, 3, step % 3 ? 0 : 5 * size); /* now and then all free nodes go the same way */
-            for (int i = 0; i < 3 * scene.model->node_count; i++) p[i] = s->is_dirichlet[i / 3] ? 0 : drift[i % 3] + random_uniform(&random, -size, size);
+            for (int i = 0; i < 3 * scene.model->node_count; i++)
+                p[i] = s->is_dirichlet[i / 3] ? 0 : drift[i % 3] + random_uniform(&random, -size, size);
             assert_int_equal(cipc_cache_cover(s, s->x, p, NULL), CIPC_OK);
             searches += s->cache.along_path;
             reuses += !s->cache.along_path;

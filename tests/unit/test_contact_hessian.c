@@ -1,4 +1,5 @@
-/* The closed form of projected contact Hessians: equal to the plain projection of the exact Hessian, for every kind, near and far, thin and thick. */
+/* The closed form of projected contact Hessians: equal to the plain projection of the exact Hessian, for every kind, near and far, thin and
+ * thick. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -16,9 +17,10 @@
 
 enum { N = 12 };
 
-/* The two ways differ by rounding: the unit normal is known to some 8 u S/(d) (S the stencil's size: r is a difference of numbers of that size), or 8 u / sine for the
- * cross product; the distance relatively to as much, and the dual basis of the parameters to 8 u / sine^2. Each enters the matrix twice (it is quadratic), in the
- * exact Hessian as well as in the closed form; with the two eigenproblems this makes a few dozen times u (1 + sine S/d) / sine^2. 256 is ten times what is seen. */
+/* The two ways differ by rounding: the unit normal is known to some 8 u S/(d) (S the stencil's size: r is a difference of numbers of that
+ * size), or 8 u / sine for the cross product; the distance relatively to as much, and the dual basis of the parameters to 8 u / sine^2.
+ * Each enters the matrix twice (it is quadratic), in the exact Hessian as well as in the closed form; with the two eigenproblems this makes
+ * a few dozen times u (1 + sine S/d) / sine^2. 256 is ten times what is seen. */
 static const double rounding_factor = 256;
 
 static double largest(int n, const double *A)
@@ -99,7 +101,8 @@ static void test_samplers(void **state)
     gsl_rng_free(rng);
 }
 
-/* A stencil with its closest points anywhere (also outside of the primitives: the formulas do not mind), at distance d, with a given sine. */
+/* A stencil with its closest points anywhere (also outside of the primitives: the formulas do not mind), at distance d, with a given sine.
+ */
 static void draw(uint64_t *seed, cipc_pair_kind kind, double d, double sine, double x[N])
 {
     double cosine = sqrt(1 - sine * sine), s = random_uniform(seed, -0.5, 1.5), t = random_uniform(seed, -0.5, 1.5), local[N] = {0};
@@ -145,7 +148,8 @@ static void test_all_shapes(void **state)
         for (int trial = 0; trial < 20000; trial++) {
             double x[N], sine = pow(10, -3 * random_uniform(&seed, 0, 1)), xi = trial % 2 ? 0.01 : 0, dhat = 0.01;
             draw(&seed, (cipc_pair_kind)kind, xi + dhat * pow(10, -5 * random_uniform(&seed, 0, 1)), sine, x);
-            cipc_contact_barrier barrier = {.stiffness = 1e3, .weight = 2, .offset = xi, .dhat = dhat, .feature = {CIPC_EDGE_EDGE, 4, {0, 1, 2, 3}}};
+            cipc_contact_barrier barrier = {
+                .stiffness = 1e3, .weight = 2, .offset = xi, .dhat = dhat, .feature = {CIPC_EDGE_EDGE, 4, {0, 1, 2, 3}}};
             verdict v = try_closed_form((cipc_energy_id)(CIPC_ENERGY_BARRIER_POINT_POINT + kind), x, &barrier);
             if (v == WRONG) fail_msg("kind %d, trial %d, sine %g", kind, trial, sine);
         }
@@ -156,8 +160,9 @@ static void test_refuses(void **state)
 {
     (void)state;
     cipc_contact_barrier barrier = {.stiffness = 1, .weight = 1, .dhat = 0.01, .feature = {CIPC_EDGE_EDGE, 4, {0, 1, 2, 3}}}, other;
-    const double crossing[N] = {-1, 0, 0.005, 1, 0, 0.005, 0, -1, 0, 0, 1, 0}, parallel[N] = {-1, 0, 0.005, 1, 0, 0.005, -1, 0, 0, 1, 1e-5, 0},
-                 touching[N] = {-1, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1, 0}, short_edge[9] = {0, 0, 0.005, 0, 0, 0, 0, 0, 0}, same[6] = {1, 2, 3, 1, 2, 3},
+    const double crossing[N] = {-1, 0, 0.005, 1, 0, 0.005, 0, -1, 0, 0, 1, 0},
+                 parallel[N] = {-1, 0, 0.005, 1, 0, 0.005, -1, 0, 0, 1, 1e-5, 0}, touching[N] = {-1, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1, 0},
+                 short_edge[9] = {0, 0, 0.005, 0, 0, 0, 0, 0, 0}, same[6] = {1, 2, 3, 1, 2, 3},
                  sliver[N] = {0.5, 0, 0.005, 0, 0, 0, 1, 0, 0, 2, 1e-5, 0};
     assert_int_equal(try_closed_form(CIPC_ENERGY_BARRIER_EDGE_EDGE, crossing, &barrier), RIGHT);
     assert_int_equal(try_closed_form(CIPC_ENERGY_BARRIER_EDGE_EDGE, parallel, &barrier), REFUSED);
@@ -175,7 +180,8 @@ static void test_refuses(void **state)
     assert_int_equal(try_closed_form(CIPC_ENERGY_BARRIER_EDGE_EDGE, crossing, &other), REFUSED);
 }
 
-/* The comparison must notice: no projection at all; a lost largest eigenvalue; a lost rotation term, the least of the positive eigenvalues. */
+/* The comparison must notice: no projection at all; a lost largest eigenvalue; a lost rotation term, the least of the positive eigenvalues.
+ */
 static void test_check_rejects(void **state)
 {
     (void)state;
@@ -184,7 +190,8 @@ static void test_check_rejects(void **state)
         const cipc_energy *energy = cipc_energy_entry((cipc_energy_id)(CIPC_ENERGY_BARRIER_POINT_POINT + kind));
         int n = 3 * energy->nodes;
         double x[N], H[N * N], P[N * N], V[N * N], w[N], mutant[N * N];
-        cipc_contact_barrier barrier = {.stiffness = 1e3, .weight = 2, .offset = 0.01, .dhat = 0.01, .feature = {CIPC_EDGE_EDGE, 4, {0, 1, 2, 3}}};
+        cipc_contact_barrier barrier = {
+            .stiffness = 1e3, .weight = 2, .offset = 0.01, .dhat = 0.01, .feature = {CIPC_EDGE_EDGE, 4, {0, 1, 2, 3}}};
         draw(&seed, (cipc_pair_kind)kind, 0.013, 0.7, x);
         energy->hessian(x, &barrier, H);
         double limit = tolerance((cipc_pair_kind)kind, n, x, H);

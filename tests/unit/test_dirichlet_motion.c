@@ -22,9 +22,13 @@ static void targets(const sheet_scene *scene, double *target)
     cipc_dirichlet_targets(scene->model, scene->state->position, scene->state->time, scene->options.time_step, prescribed, target, NULL);
 }
 
-static int same_node(const double *a, const double *b, int node) { return sheet_same_bits(a + 3 * node, b + 3 * node, 3); }
+static int same_node(const double *a, const double *b, int node)
+{
+    return sheet_same_bits(a + 3 * node, b + 3 * node, 3);
+}
 
-/* A sheet of 3 x 3 nodes whose first row moves and turns, then rests: on target to the bit at every step, velocities are displacements by h; others move freely. */
+/* A sheet of 3 x 3 nodes whose first row moves and turns, then rests: on target to the bit at every step, velocities are displacements by
+ * h; others move freely. */
 static void test_free_way(void **state)
 {
     (void)state;
@@ -34,7 +38,8 @@ static void test_free_way(void **state)
     scene.gravity[1] = -9.81;
     sheet_scene_model(&scene);
     static const int row[3] = {0, 1, 2}, corner[1] = {8};
-    cipc_motion motion = {.begin = 0.013, .end = 0.042, .velocity = {0.3, 0.2, -0.1}, .center = {0.1, 0, 0}, .axis = {1, 2, 3}, .angular_velocity = 2};
+    cipc_motion motion = {
+        .begin = 0.013, .end = 0.042, .velocity = {0.3, 0.2, -0.1}, .center = {0.1, 0, 0}, .axis = {1, 2, 3}, .angular_velocity = 2};
     sheet_hold(&scene, row, 3, &motion, INFINITY);
     sheet_hold(&scene, corner, 1, NULL, INFINITY);
     sheet_scene_stepper(&scene);
@@ -47,7 +52,8 @@ static void test_free_way(void **state)
         for (int k = 0; k < 4; k++) {
             int node = k < 3 ? row[k] : corner[0];
             assert_true(same_node(scene.state->position, target, node));
-            for (int i = 3 * node; i < 3 * node + 3; i++) assert_true(scene.state->velocity[i] == (target[i] - before[i]) / scene.options.time_step);
+            for (int i = 3 * node; i < 3 * node + 3; i++)
+                assert_true(scene.state->velocity[i] == (target[i] - before[i]) / scene.options.time_step);
         }
         assert_false(same_node(scene.state->position, before, 5));
         /* time step 1, 10 to 20 ms, is the first with motion, step 4 the last; a rest of rounding apart they have left the first place */
@@ -78,7 +84,8 @@ static void test_nothing_free(void **state)
     sheet_scene_free(&scene);
 }
 
-/* From its release on a node falls with the others; before, it stays to the bit. Both in one body, so that the numbering of unknowns changes under way. */
+/* From its release on a node falls with the others; before, it stays to the bit. Both in one body, so that the numbering of unknowns
+ * changes under way. */
 static void test_release(void **state)
 {
     (void)state;
@@ -124,7 +131,8 @@ static void script_plate(sheet_scene *scene, double depth, double end)
     sheet_watch(scene);
 }
 
-/* A free cloth lies in the way of a plate: pushed aside, and the plate ends on its target to the bit, at rest or under way, over several steps. */
+/* A free cloth lies in the way of a plate: pushed aside, and the plate ends on its target to the bit, at rest or under way, over several
+ * steps. */
 static void test_penalty_way(void **state)
 {
     (void)state;
@@ -162,8 +170,8 @@ static void test_blocked(void **state)
         for (int again = 0; again < 2; again++) { /* the stepper is usable after a failure */
             cipc_status status = sheet_try_step(&scene);
             assert_true(status == CIPC_E_NO_PROGRESS || status == CIPC_E_NOT_CONVERGED);
-assert_non_null(strstr(scene.error.what, "at nodes"));
-                        assert_false(scene.report.converged);
+            assert_non_null(strstr(scene.error.what, "at nodes"));
+            assert_false(scene.report.converged);
             assert_non_null(strstr(scene.error.place, "step 0"));
             assert_int_equal(scene.state->step, 0);
             assert_true(scene.state->time == 0);
@@ -223,7 +231,8 @@ static void test_moving_wall_meets_pins(void **state)
     sheet_scene_free(&scene);
 }
 
-/* Pulling a strip by its ends faster than its strain limit allows in one go: the free nodes follow under the penalty, the ends arrive to the bit. */
+/* Pulling a strip by its ends faster than its strain limit allows in one go: the free nodes follow under the penalty, the ends arrive to
+ * the bit. */
 static void test_strain_limited_way(void **state)
 {
     (void)state;

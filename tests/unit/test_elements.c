@@ -14,8 +14,8 @@
 
 enum { PLAIN = 0, STVK, LIMITED, BARE, WALL, BODIES };
 
-/* Five sheets of 2 x 1 cells (4 triangles, 3 hinges): Neo-Hookean; StVK; with a strain limit and the released hinge constant; without membrane and bending
- * but with a limit; fixed. */
+/* Five sheets of 2 x 1 cells (4 triangles, 3 hinges): Neo-Hookean; StVK; with a strain limit and the released hinge constant; without
+ * membrane and bending but with a limit; fixed. */
 static void make_scene(sheet_scene *scene)
 {
     static const char *const names[BODIES] = {"plain", "stvk", "limited", "bare", "wall"};
@@ -40,7 +40,10 @@ static void rest_of(const cipc_model *m, const int *nodes, int count, double *re
     for (int i = 0; i < 3 * count; i++) rest[i] = m->rest[3 * nodes[i / 3] + i % 3];
 }
 
-static const cipc_shell_material *material_of(const cipc_model *m, int body) { return &m->bodies[body].material; }
+static const cipc_shell_material *material_of(const cipc_model *m, int body)
+{
+    return &m->bodies[body].material;
+}
 
 static void test_membranes(void **state)
 {
@@ -62,7 +65,8 @@ static void test_membranes(void **state)
             cipc_membrane want;
             memset(&want, 0, sizeof want);
             rest_of(m, nodes, 3, rest);
-            assert_true(cipc_membrane_init(&want, rest, material_of(m, b)->thickness, material_of(m, b)->membrane_young, material_of(m, b)->membrane_poisson));
+            assert_true(cipc_membrane_init(&want, rest, material_of(m, b)->thickness, material_of(m, b)->membrane_young,
+                                           material_of(m, b)->membrane_poisson));
             assert_memory_equal((const cipc_membrane *)g->params + first[b] + k, &want, sizeof want);
             assert_memory_equal(g->nodes + 3 * (first[b] + k), nodes, 3 * sizeof(int));
         }
@@ -160,7 +164,7 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_membranes), cmocka_unit_test(test_strain_limits), cmocka_unit_test(test_hinges),
+        cmocka_unit_test(test_membranes),     cmocka_unit_test(test_strain_limits), cmocka_unit_test(test_hinges),
         cmocka_unit_test(test_flat_triangle), cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -57,15 +57,15 @@ static void test_refused(void **state)
     make_scene(&scene);
     cipc_implicit_options good = cipc_implicit_options_default(), o;
     cipc_stepper *stepper;
-#define REFUSE(field, value, name)                                                                                        \
-    do {                                                                                                                  \
-        cipc_error error = {.status = CIPC_OK};                                                                           \
-        o = good;                                                                                                         \
-        o.field = (value);                                                                                                \
-        assert_int_equal(cipc_stepper_create(&stepper, scene.model, &o, &error), CIPC_E_OUT_OF_RANGE);                    \
-        assert_null(stepper);                                                                                             \
-        assert_non_null(strstr(error.what, name));                                                                        \
-        assert_int_equal(cipc_stepper_create(&stepper, scene.model, &o, NULL), CIPC_E_OUT_OF_RANGE);                      \
+#define REFUSE(field, value, name)                                                                                                         \
+    do {                                                                                                                                   \
+        cipc_error error = {.status = CIPC_OK};                                                                                            \
+        o = good;                                                                                                                          \
+        o.field = (value);                                                                                                                 \
+        assert_int_equal(cipc_stepper_create(&stepper, scene.model, &o, &error), CIPC_E_OUT_OF_RANGE);                                     \
+        assert_null(stepper);                                                                                                              \
+        assert_non_null(strstr(error.what, name));                                                                                         \
+        assert_int_equal(cipc_stepper_create(&stepper, scene.model, &o, NULL), CIPC_E_OUT_OF_RANGE);                                       \
     } while (0)
     REFUSE(time_step, 0, "time_step");
     REFUSE(time_step, -1, "time_step");

@@ -13,7 +13,8 @@
 #include "support/failing_memory.h"
 #include "support/sheet_scene.h"
 
-/* One triangle of side 1 at rest; `towards` is where its inertia pulls it, the same for all nodes. With `wall`, another triangle 0.1 under it, fixed. */
+/* One triangle of side 1 at rest; `towards` is where its inertia pulls it, the same for all nodes. With `wall`, another triangle 0.1 under
+ * it, fixed. */
 static void make(sheet_scene *scene, double towards, bool wall, bool bare)
 {
     const double a[3] = {0, 0, 0}, b[3] = {1, 0, 0}, c[3] = {0, 0, 1}, d[3] = {-1, -0.1, -1}, e[3] = {3, -0.1, -1}, f[3] = {-1, -0.1, 3};
@@ -72,7 +73,8 @@ static void test_full_step(void **state)
     sheet_scene_free(&scene);
 }
 
-/* E = (1 - 4 alpha)^2 E_0 along the way: 9 E_0 at 1, E_0 at 1/2, none at 1/4. Sufficient decrease wants the last; the released rule, E <= E_0, takes the second. */
+/* E = (1 - 4 alpha)^2 E_0 along the way: 9 E_0 at 1, E_0 at 1/2, none at 1/4. Sufficient decrease wants the last; the released rule, E <=
+ * E_0, takes the second. */
 static void test_overshoot(void **state)
 {
     (void)state;
@@ -248,9 +250,9 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_full_step),        cmocka_unit_test(test_overshoot),    cmocka_unit_test(test_uphill),
-        cmocka_unit_test(test_contact),          cmocka_unit_test(test_contacts_follow), cmocka_unit_test(test_infinite_energy),
-        cmocka_unit_test(test_strain_limit),     cmocka_unit_test(test_monitor),      cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_full_step),    cmocka_unit_test(test_overshoot),       cmocka_unit_test(test_uphill),
+        cmocka_unit_test(test_contact),      cmocka_unit_test(test_contacts_follow), cmocka_unit_test(test_infinite_energy),
+        cmocka_unit_test(test_strain_limit), cmocka_unit_test(test_monitor),         cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

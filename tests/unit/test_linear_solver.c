@@ -1,4 +1,5 @@
-/* The direct solver: residuals, reuse of the symbolic factorisation, indefinite matrices, the number of threads, lack of memory (ours and CHOLMOD's). */
+/* The direct solver: residuals, reuse of the symbolic factorisation, indefinite matrices, the number of threads, lack of memory (ours and
+ * CHOLMOD's). */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -30,7 +31,8 @@ static void make_matrix(uint64_t *seed, int extra, cipc_block_matrix *A)
     assert_int_equal(cipc_block_matrix_create(A, BLOCKS, (const int(*)[2])pairs, count, NULL), CIPC_OK);
 }
 
-/* Random entries in (-1, 1) and `diagonal` on the diagonal: with 3 x the blocks of a row it dominates, so the matrix is positive definite. */
+/* Random entries in (-1, 1) and `diagonal` on the diagonal: with 3 x the blocks of a row it dominates, so the matrix is positive definite.
+ */
 static void fill(uint64_t *seed, cipc_block_matrix *A, double diagonal)
 {
     for (int j = 0; j < 3 * A->n; j++)
@@ -57,7 +59,8 @@ static double multiply(const cipc_block_matrix *A, const double *x, double *y)
     return norm;
 }
 
-/* Cholesky's solution satisfies |b - A x| <= 4 n (3 n + 1) u |A| |x| in the worst case (Higham, theorem 10.4); 8 n u, as for the random rounding of so many operations. */
+/* Cholesky's solution satisfies |b - A x| <= 4 n (3 n + 1) u |A| |x| in the worst case (Higham, theorem 10.4); 8 n u, as for the random
+ * rounding of so many operations. */
 static bool solves(const cipc_block_matrix *A, const double *x, const double *b)
 {
     double y[3 * BLOCKS], norm = multiply(A, x, y), size = 0;
@@ -239,10 +242,22 @@ static void test_out_of_memory(void **state)
 
 /* CHOLMOD's own allocations, through the hooks that SuiteSparse has for that. */
 static long countdown;
-static bool refuse(void) { return --countdown == 0; }
-static void *failing_malloc(size_t size) { return refuse() ? NULL : malloc(size); }
-static void *failing_calloc(size_t count, size_t size) { return refuse() ? NULL : calloc(count, size); }
-static void *failing_realloc(void *block, size_t size) { return refuse() ? NULL : realloc(block, size); }
+static bool refuse(void)
+{
+    return --countdown == 0;
+}
+static void *failing_malloc(size_t size)
+{
+    return refuse() ? NULL : malloc(size);
+}
+static void *failing_calloc(size_t count, size_t size)
+{
+    return refuse() ? NULL : calloc(count, size);
+}
+static void *failing_realloc(void *block, size_t size)
+{
+    return refuse() ? NULL : realloc(block, size);
+}
 
 static void test_cholmod_out_of_memory(void **state)
 {
@@ -266,7 +281,8 @@ static void test_cholmod_out_of_memory(void **state)
         cipc_status status = whole_use(&A, b, x, &reached, &error);
         done = countdown > 0;
         /* CHOLMOD gets by without some of its memory, e.g. with one ordering of two; then the answer is right. */
-        if (!status) assert_true(solves(&A, x, b));
+        if (!status)
+            assert_true(solves(&A, x, b));
         else {
             assert_int_equal(status, CIPC_E_OUT_OF_MEMORY);
             failures[reached]++;

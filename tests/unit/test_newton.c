@@ -58,7 +58,8 @@ static void test_quadratic(void **state)
     sheet_scene_free(&scene);
 }
 
-/* The iteration cap: not converged, with step, residual and tolerance named, and never `converged`; the state stays in its step, at the last accepted point. */
+/* The iteration cap: not converged, with step, residual and tolerance named, and never `converged`; the state stays in its step, at the
+ * last accepted point. */
 static void test_iteration_cap(void **state)
 {
     (void)state;
@@ -107,7 +108,8 @@ static void test_limits_are_named(void **state)
     assert_true(scene.min_gap > 0);
     sheet_scene_free(&scene);
 
-    /* Nothing active at the start, so the direction leads deep into a barrier that is much too stiff: neither the certified step nor its half lowers E. */
+    /* Nothing active at the start, so the direction leads deep into a barrier that is much too stiff: neither the certified step nor its
+     * half lowers E. */
     sheet_scene_init(&scene);
     scene.options.barrier_stiffness = 1e12;
     scene.options.line_search_halvings = 1;
@@ -184,7 +186,8 @@ static void test_rms_norm(void **state)
     sheet_scene_free(&scene);
 }
 
-/* A barrier much too soft for a hard impact: kappa doubles while gaps below 1e-9 of the bounding box shrink further, up to its largest value; nothing touches. */
+/* A barrier much too soft for a hard impact: kappa doubles while gaps below 1e-9 of the bounding box shrink further, up to its largest
+ * value; nothing touches. */
 static void test_barrier_stiffness_doubles(void **state)
 {
     (void)state;
@@ -216,8 +219,9 @@ static void test_largest_stiffness(void **state)
         scene.options.released = released;
         thrown(&scene, 0.005, 5);
         cipc_stepper *s = scene.stepper;
-        cipc_stiffness_range range = released ? cipc_barrier_stiffness_range_released(s->mean_mass, s->options.contact.dhat)
-                                              : cipc_barrier_stiffness_range(s->bounding_box_diagonal, s->mean_mass, 0, s->options.contact.dhat);
+        cipc_stiffness_range range = released
+                                         ? cipc_barrier_stiffness_range_released(s->mean_mass, s->options.contact.dhat)
+                                         : cipc_barrier_stiffness_range(s->bounding_box_diagonal, s->mean_mass, 0, s->options.contact.dhat);
         assert_true(range.maximum > 0);
         sheet_step(&scene);
         assert_true(scene.report.barrier_stiffness >= range.minimum && scene.report.barrier_stiffness <= range.maximum);
@@ -225,7 +229,8 @@ static void test_largest_stiffness(void **state)
     }
 }
 
-/* Masses so small against the stiffness that rounding spoils the factorisation: mass is added until it works, and every accepted step still lowers E. */
+/* Masses so small against the stiffness that rounding spoils the factorisation: mass is added until it works, and every accepted step still
+ * lowers E. */
 static void test_shift(void **state)
 {
     (void)state;
@@ -290,17 +295,10 @@ static void test_monotone(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_quadratic),
-        cmocka_unit_test(test_iteration_cap),
-        cmocka_unit_test(test_limits_are_named),
-        cmocka_unit_test(test_max_norm),
-        cmocka_unit_test(test_rms_norm),
-        cmocka_unit_test(test_barrier_stiffness_doubles),
-        cmocka_unit_test(test_largest_stiffness),
-        cmocka_unit_test(test_shift),
-        cmocka_unit_test(test_never_definite),
-        cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_monotone),
+        cmocka_unit_test(test_quadratic),         cmocka_unit_test(test_iteration_cap), cmocka_unit_test(test_limits_are_named),
+        cmocka_unit_test(test_max_norm),          cmocka_unit_test(test_rms_norm),      cmocka_unit_test(test_barrier_stiffness_doubles),
+        cmocka_unit_test(test_largest_stiffness), cmocka_unit_test(test_shift),         cmocka_unit_test(test_never_definite),
+        cmocka_unit_test(test_not_finite),        cmocka_unit_test(test_monotone),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

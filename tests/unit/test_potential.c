@@ -27,7 +27,8 @@ typedef struct variant {
     double penalty;
     bool released;
 } variant;
-static const variant variants[] = {{{1, 1, 0}, 0, false}, {{1, 0.5, 0.5}, 0, false}, {{1, 1, 0}, 1e6, false}, {{1, 0.5, 0.5}, 1e8, false}, {{1, 1, 0}, 0, true}};
+static const variant variants[] = {
+    {{1, 1, 0}, 0, false}, {{1, 0.5, 0.5}, 0, false}, {{1, 1, 0}, 1e6, false}, {{1, 0.5, 0.5}, 1e8, false}, {{1, 1, 0}, 0, true}};
 enum { VARIANTS = 5, SEEDS = 20, MOST_NODES = 64 };
 
 static void make(sheet_scene *scene, uint64_t seed, const variant *v)
@@ -57,7 +58,8 @@ static void test_scene_is_crowded(void **state)
     assert_true(mollified > 0 && short_friction > 0);
 }
 
-/* Every term to a few parts in 1e12 of itself, and none is zero where it should not be; the total within the noise that the stepper claims. */
+/* Every term to a few parts in 1e12 of itself, and none is zero where it should not be; the total within the noise that the stepper claims.
+ */
 static void test_value_and_noise(void **state)
 {
     (void)state;
@@ -72,10 +74,13 @@ static void test_value_and_noise(void **state)
             cipc_energy_terms got = value_at(&scene, s->x);
             widen(s->x, 3 * scene.model->node_count, x);
             real_potential(s, x, want);
-            const double terms[REAL_TERMS] = {got.inertia, got.membrane, got.bending, got.strain_limit, got.barrier, got.friction, got.penalty, got.total};
+            const double terms[REAL_TERMS] = {got.inertia, got.membrane, got.bending, got.strain_limit,
+                                              got.barrier, got.friction, got.penalty, got.total};
             for (int t = 0; t < REAL_TERMS; t++) {
-                /* relative errors of a term: 32 u by the head of potential.c, times the cancellation in the membrane's strain, 1e-3 here, twice */
-                if (!(fabsl(terms[t] - want[t]) <= 1e-11L * fabsl(want[t]))) fail_msg("variant %d, seed %d, term %d: %.17g, not %.17Lg", v, (int)seed, t, terms[t], want[t]);
+                /* relative errors of a term: 32 u by the head of potential.c, times the cancellation in the membrane's strain, 1e-3 here,
+                 * twice */
+                if (!(fabsl(terms[t] - want[t]) <= 1e-11L * fabsl(want[t])))
+                    fail_msg("variant %d, seed %d, term %d: %.17g, not %.17Lg", v, (int)seed, t, terms[t], want[t]);
                 assert_true((want[t] != 0) == (t != REAL_PENALTY || variants[v].penalty > 0));
             }
             assert_true(got.noise > 0 && got.noise == s->noise);
@@ -88,8 +93,8 @@ static void test_value_and_noise(void **state)
     assert_true(tightest < 1e4); /* ... and is not far from what happens */
 }
 
-/* The bound holds, too, where one kind of term is alone: inertia (nothing else has noise there), and friction of sheets that fly along together, where the
- * displacements of the nodes cancel. */
+/* The bound holds, too, where one kind of term is alone: inertia (nothing else has noise there), and friction of sheets that fly along
+ * together, where the displacements of the nodes cancel. */
 static void test_noise_of_single_terms(void **state)
 {
     (void)state;
@@ -115,7 +120,8 @@ static void test_noise_of_single_terms(void **state)
         }
 }
 
-/* Central differences of the twin with step d: truncation (d / gap)^2 of the stiffest term, 1e-9 here; rounding 2^-64 E / d. Relative to the largest entry. */
+/* Central differences of the twin with step d: truncation (d / gap)^2 of the stiffest term, 1e-9 here; rounding 2^-64 E / d. Relative to
+ * the largest entry. */
 static const real step_of_differences = 1e-7L;
 static const double gradient_tolerance = 1e-7;
 
@@ -196,7 +202,8 @@ static void test_infeasible(void **state)
     sheet_scene_free(&scene);
 }
 
-/* kappa that balances the barrier against the rest of E in the least-squares sense: afterwards the residual is orthogonal to the barrier's gradient. */
+/* kappa that balances the barrier against the rest of E in the least-squares sense: afterwards the residual is orthogonal to the barrier's
+ * gradient. */
 static void test_fit_stiffness(void **state)
 {
     (void)state;
@@ -241,9 +248,12 @@ static void test_out_of_memory(void **state)
             crowded_scene(&scene, 1, crowded_euler, 0, 1);
             cipc_stepper *s = scene.stepper;
             fail_allocation(n);
-            if (which == 0) status = cipc_potential_value(s, s->x, &s->contacts, &terms, &scene.error);
-            else if (which == 1) status = cipc_potential_gradient(s, &scene.error);
-            else status = cipc_fit_stiffness(s, &kappa, &scene.error);
+            if (which == 0)
+                status = cipc_potential_value(s, s->x, &s->contacts, &terms, &scene.error);
+            else if (which == 1)
+                status = cipc_potential_gradient(s, &scene.error);
+            else
+                status = cipc_fit_stiffness(s, &kappa, &scene.error);
             bool failed = allocation_failed();
             fail_allocation(0);
             assert_int_equal(status, failed ? CIPC_E_OUT_OF_MEMORY : CIPC_OK);
@@ -258,8 +268,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_scene_is_crowded), cmocka_unit_test(test_value_and_noise), cmocka_unit_test(test_noise_of_single_terms),
-        cmocka_unit_test(test_gradient), cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_infeasible), cmocka_unit_test(test_fit_stiffness), cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_gradient),         cmocka_unit_test(test_threads),         cmocka_unit_test(test_infeasible),
+        cmocka_unit_test(test_fit_stiffness),    cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

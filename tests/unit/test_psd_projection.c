@@ -17,7 +17,10 @@
 enum { N = 12 };
 
 /* Errors of both decompositions, 40 n^2 u |H| each (test_symmetric_eigen.c), and as much again for putting the matrix together. */
-static double tolerance(int n, double size) { return 120.0 * n * n * UNIT_ROUNDOFF * size; }
+static double tolerance(int n, double size)
+{
+    return 120.0 * n * n * UNIT_ROUNDOFF * size;
+}
 
 static double frobenius(int n, const double *A)
 {
@@ -54,8 +57,8 @@ static double clamped(double w, int k, int n)
     return fmax(w, 0);
 }
 
-/* Is P the nearest positive semi-definite matrix to H? Twice over: equal to the reference; and P >= 0, P - H >= 0, <P, P - H> = 0, which are necessary and
- * sufficient for the projection on the cone. */
+/* Is P the nearest positive semi-definite matrix to H? Twice over: equal to the reference; and P >= 0, P - H >= 0, <P, P - H> = 0, which
+ * are necessary and sufficient for the projection on the cone. */
 static bool is_nearest(int n, const double *H, const double *P)
 {
     double size = frobenius(n, H), limit = tolerance(n, size), reference[N * N], difference[N * N], inner = 0;
@@ -131,8 +134,10 @@ static void test_definite_is_unchanged(void **state)
         for (int trial = 0; trial < 200; trial++) {
             double H[N * N] = {0}, P[N * N], shift = 3.0 * nodes + random_uniform(&seed, 0.01, 1); /* rows of S sum to less */
             bool invariant = nodes > 1 && trial % 2;
-            if (invariant) draw_invariant(&seed, nodes, shift, H);
-            else draw_symmetric(&seed, 3 * nodes, H);
+            if (invariant)
+                draw_invariant(&seed, nodes, shift, H);
+            else
+                draw_symmetric(&seed, 3 * nodes, H);
             for (int i = 0; i < 3 * nodes && !invariant; i++) H[i * 3 * nodes + i] += shift;
             memcpy(P, H, sizeof P);
             assert_true(cipc_psd_project(nodes, P, invariant));
@@ -219,7 +224,10 @@ static double absolute(double w, int k, int n)
     (void)k, (void)n;
     return fabs(w);
 }
-static double without_largest(double w, int k, int n) { return k == n - 1 ? 0 : fmax(w, 0); }
+static double without_largest(double w, int k, int n)
+{
+    return k == n - 1 ? 0 : fmax(w, 0);
+}
 static double nothing(double w, int k, int n)
 {
     (void)w, (void)k, (void)n;
@@ -253,12 +261,9 @@ static void test_check_rejects(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random),
-        cmocka_unit_test(test_definite_is_unchanged),
-        cmocka_unit_test(test_special),
-        cmocka_unit_test(test_energies),
-        cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_check_rejects),
+        cmocka_unit_test(test_random),     cmocka_unit_test(test_definite_is_unchanged),
+        cmocka_unit_test(test_special),    cmocka_unit_test(test_energies),
+        cmocka_unit_test(test_not_finite), cmocka_unit_test(test_check_rejects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

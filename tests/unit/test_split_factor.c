@@ -1,4 +1,5 @@
-/* Factorisation in two halves: residuals on grids, separate pieces and growing separators; the answers "not worthwhile" and "not definite"; threads; memory. */
+/* Factorisation in two halves: residuals on grids, separate pieces and growing separators; the answers "not worthwhile" and "not definite";
+ * threads; memory. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -202,7 +203,8 @@ static void test_not_worthwhile(void **state)
     cipc_split_factor_destroy(split);
 }
 
-/* One diagonal entry after the other is made negative: wherever it is, in a half or in the separator, the answer is "not definite", and the factor recovers. */
+/* One diagonal entry after the other is made negative: wherever it is, in a half or in the separator, the answer is "not definite", and the
+ * factor recovers. */
 static void test_not_definite(void **state)
 {
     (void)state;
@@ -214,13 +216,22 @@ static void test_not_definite(void **state)
     assert_true(analyze(split, s));
     fill(s, &seed, 60);
     for (int block = 0; block < BLOCKS; block += 13) {
-        bool definite = true;
+        bool found = true;
         double *entry = &s->A.x[s->A.p[3 * block + 1] + 1], kept = *entry;
         *entry = -1;
-        assert_int_equal(cipc_split_factor_factorize(split, &s->A, 1, &definite, NULL), CIPC_OK);
-        assert_false(definite);
+        assert_int_equal(cipc_split_factor_factorize(split, &s->A, 1, &found, NULL), CIPC_OK);
+        assert_false(found);
         *entry = kept;
     }
+    bool definite = true; /* indefinite only as a whole: the diagonal shrinks until some combination of many nodes is not positive */
+    double diagonal = 60;
+    for (; definite && diagonal > 0; diagonal *= 0.95) {
+        uint64_t same = 127;
+        fill(s, &same, diagonal);
+        assert_int_equal(cipc_split_factor_factorize(split, &s->A, 1, &definite, NULL), CIPC_OK);
+    }
+    assert_false(definite);
+    assert_true(diagonal > 1 && diagonal < 15); /* every entry of the diagonal is still larger than any other entry */
     assert_solves(split, s, &seed);
     free_system(s);
     cipc_split_factor_destroy(split);
@@ -249,14 +260,16 @@ static void test_threads(void **state)
     omp_set_max_active_levels(0);
 }
 
-/* --- lack of memory: whatever fails, it is reported, and the same factor is as good as new afterwards ---------------------------------- */
+/* --- lack of memory: whatever fails, it is reported, and the same factor is as good as new afterwards ----------------------------------
+ */
 
 /* CHOLMOD's allocations, through the hooks that SuiteSparse has: the countdown'th fails while armed. */
 static long countdown;
 static bool armed;
 
 /* Two patterns (the second grows the separator of the first), factorisation and solution. */
-static cipc_status whole_use(cipc_split_factor *split, system_of_equations *first, system_of_equations *second, bool *definite, cipc_error *error)
+static cipc_status whole_use(cipc_split_factor *split, system_of_equations *first, system_of_equations *second, bool *definite,
+                             cipc_error *error)
 {
     bool worthwhile = false;
     *definite = false;
@@ -269,10 +282,22 @@ static cipc_status whole_use(cipc_split_factor *split, system_of_equations *firs
     return status ? status : cipc_split_factor_solve(split, second->b, second->x, 1, error);
 }
 
-static bool refuse(void) { return armed && --countdown == 0; }
-static void *failing_malloc(size_t size) { return refuse() ? NULL : malloc(size); }
-static void *failing_calloc(size_t count, size_t size) { return refuse() ? NULL : calloc(count, size); }
-static void *failing_realloc(void *block, size_t size) { return refuse() ? NULL : realloc(block, size); }
+static bool refuse(void)
+{
+    return armed && --countdown == 0;
+}
+static void *failing_malloc(size_t size)
+{
+    return refuse() ? NULL : malloc(size);
+}
+static void *failing_calloc(size_t count, size_t size)
+{
+    return refuse() ? NULL : calloc(count, size);
+}
+static void *failing_realloc(void *block, size_t size)
+{
+    return refuse() ? NULL : realloc(block, size);
+}
 
 static void out_of_memory(bool cholmod)
 {
@@ -336,14 +361,9 @@ int main(void)
 {
     omp_set_max_active_levels(0); /* CHOLMOD's own threads would only wait for one another on a busy machine; test_threads lets them */
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_grid),
-        cmocka_unit_test(test_patterns_follow),
-        cmocka_unit_test(test_separate_pieces),
-        cmocka_unit_test(test_not_worthwhile),
-        cmocka_unit_test(test_not_definite),
-        cmocka_unit_test(test_threads),
-        cmocka_unit_test(test_out_of_memory),
-        cmocka_unit_test(test_cholmod_out_of_memory),
+        cmocka_unit_test(test_grid),           cmocka_unit_test(test_patterns_follow),       cmocka_unit_test(test_separate_pieces),
+        cmocka_unit_test(test_not_worthwhile), cmocka_unit_test(test_not_definite),          cmocka_unit_test(test_threads),
+        cmocka_unit_test(test_out_of_memory),  cmocka_unit_test(test_cholmod_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -17,10 +17,12 @@
 
 static const double corner[3] = {0, 0, 0}, side_x[3] = {0.2, 0, 0}, side_z[3] = {0, 0, 0.2};
 
-/* Two crumpled cloths that fall obliquely on a slab, one on the other, with friction and thickness; the upper's last corner is led sideways. */
+/* Two crumpled cloths that fall obliquely on a slab, one on the other, with friction and thickness; the upper's last corner is led
+ * sideways. */
 static void pile(sheet_scene *scene)
 {
-    const double slab[3] = {-0.3, 0, -0.3}, wide[3] = {0.8, 0, 0}, deep[3] = {0, 0, 0.8}, first[3] = {0, 0.004, 0}, second[3] = {0.03, 0.009, 0.02}, slide[3] = {0.5, -0.8, 0.2};
+    const double slab[3] = {-0.3, 0, -0.3}, wide[3] = {0.8, 0, 0}, deep[3] = {0, 0, 0.8}, first[3] = {0, 0.004, 0},
+                 second[3] = {0.03, 0.009, 0.02}, slide[3] = {0.5, -0.8, 0.2};
     uint64_t seed = 101;
     static const int led[1] = {4 + 16 + 15};
     const cipc_motion motion = {.begin = 0.01, .end = 0.03, .velocity = {0.2, 0, 0.1}};
@@ -98,13 +100,16 @@ static void test_stiffness_choice(void **state)
         scene.options.released = k == 1;
         scene.options.barrier_stiffness = k == 2 ? 12.5 : 0;
         pile(&scene);
-        cipc_stiffness_range range = k == 1 ? cipc_barrier_stiffness_range_released(scene.stepper->mean_mass, 1e-3)
-                                            : cipc_barrier_stiffness_range(scene.stepper->bounding_box_diagonal, scene.stepper->mean_mass, 5e-4, 1e-3);
+        cipc_stiffness_range range =
+            k == 1 ? cipc_barrier_stiffness_range_released(scene.stepper->mean_mass, 1e-3)
+                   : cipc_barrier_stiffness_range(scene.stepper->bounding_box_diagonal, scene.stepper->mean_mass, 5e-4, 1e-3);
         double want = k == 1 ? range.minimum : 12.5;
         for (int step = 0; step < 4; step++) {
             sheet_step(&scene);
-            if (k > 0) assert_true(scene.report.barrier_stiffness == want);
-            else assert_true(scene.report.barrier_stiffness >= range.minimum && scene.report.barrier_stiffness <= range.maximum);
+            if (k > 0)
+                assert_true(scene.report.barrier_stiffness == want);
+            else
+                assert_true(scene.report.barrier_stiffness >= range.minimum && scene.report.barrier_stiffness <= range.maximum);
         }
         sheet_scene_free(&scene);
     }
@@ -136,7 +141,8 @@ static void test_measures(void **state)
 
 /* --- integrators ------------------------------------------------------------------------------------------------------------------- */
 
-/* A stretched free sheet swings: total energy of the midpoint rule stays, implicit Euler's decays; both keep momentum. h is a 150th of the period. */
+/* A stretched free sheet swings: total energy of the midpoint rule stays, implicit Euler's decays; both keep momentum. h is a 150th of the
+ * period. */
 static void test_midpoint_energy(void **state)
 {
     (void)state;
@@ -267,7 +273,8 @@ static void test_threads(void **state)
     for (int variant = 0; variant < 4; variant++)
         for (int threads = 1; threads <= 3; threads++) {
             run_with_threads(threads, variant, STEPS, positions[threads - 1]);
-            if (!sheet_same_bits(positions[0], positions[threads - 1], STEPS * 3 * PILE_NODES)) fail_msg("variant %d: %d threads differ", variant, threads);
+            if (!sheet_same_bits(positions[0], positions[threads - 1], STEPS * 3 * PILE_NODES))
+                fail_msg("variant %d: %d threads differ", variant, threads);
         }
 }
 
@@ -315,7 +322,8 @@ static cipc_status count_points(void *context, const cipc_accepted_point *point,
     return s->calls == s->stop_at ? cipc_fail(error, CIPC_E_VIOLATED_STRAIN, "test", "stop") : CIPC_OK;
 }
 
-/* Every accepted point once, in order: the Dirichlet motion first, then the iterations. What the monitor returns ends the step, at that point. */
+/* Every accepted point once, in order: the Dirichlet motion first, then the iterations. What the monitor returns ends the step, at that
+ * point. */
 static void test_monitor(void **state)
 {
     (void)state;
@@ -347,9 +355,11 @@ static void test_monitor(void **state)
     sheet_scene_free(&scene);
 }
 
-/* --- lack of memory --------------------------------------------------------------------------------------------------------------------- */
+/* --- lack of memory ---------------------------------------------------------------------------------------------------------------------
+ */
 
-/* The n-th allocation of making a stepper and taking three steps fails: the status says so, nothing is converged, and the stepper goes on afterwards. */
+/* The n-th allocation of making a stepper and taking three steps fails: the status says so, nothing is converged, and the stepper goes on
+ * afterwards. */
 static void test_out_of_memory(void **state)
 {
     (void)state;

@@ -67,8 +67,10 @@ static void test_feasible_is_exact(void **state)
         for (int k = 0; k < 70; k++) {
             double t = 0.5 * (low + high);
             for (int i = 0; i < 9; i++) x[i] = scene.model->rest[i] + t * p[i];
-            if (cipc_strain_feasible(s, x)) low = t;
-            else high = t;
+            if (cipc_strain_feasible(s, x))
+                low = t;
+            else
+                high = t;
         }
         for (int i = 0; i < 9; i++) x[i] = scene.model->rest[i] + low * p[i];
         assert_true(cipc_strain_feasible(s, x));
@@ -77,7 +79,8 @@ static void test_feasible_is_exact(void **state)
     sheet_scene_free(&scene);
 }
 
-/* Node 1 drawn along its edge by L: sigma_1 = 1 + t L, so the limit is met at t = (limit - 1) / L, and the step is 0.9 of that, to 2^-20 of bisection. */
+/* Node 1 drawn along its edge by L: sigma_1 = 1 + t L, so the limit is met at t = (limit - 1) / L, and the step is 0.9 of that, to 2^-20 of
+ * bisection. */
 static void test_closed_form(void **state)
 {
     (void)state;
@@ -164,8 +167,8 @@ static void test_adapt(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_feasible),    cmocka_unit_test(test_feasible_is_exact), cmocka_unit_test(test_closed_form),
-        cmocka_unit_test(test_free_steps),  cmocka_unit_test(test_released_step),     cmocka_unit_test(test_adapt),
+        cmocka_unit_test(test_feasible),   cmocka_unit_test(test_feasible_is_exact), cmocka_unit_test(test_closed_form),
+        cmocka_unit_test(test_free_steps), cmocka_unit_test(test_released_step),     cmocka_unit_test(test_adapt),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

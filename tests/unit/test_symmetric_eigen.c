@@ -16,9 +16,13 @@
 
 enum { N = CIPC_EIGEN_MAX };
 
-/* Householder's reduction commits a backward error below 10 n^1.5 u |A|_F (each of n - 2 reflections a few n u), QL with some 2n sweeps of at most n
- * rotations, each 6 u, less than 12 n^1.5 u |A|_F in practice and 24 n^2 in the worst case (Wilkinson). 40 n^2 u covers both; for n = 12: 2^-40. */
-static double tolerance(int n, double size) { return 40.0 * n * n * UNIT_ROUNDOFF * size; }
+/* Householder's reduction commits a backward error below 10 n^1.5 u |A|_F (each of n - 2 reflections a few n u), QL with some 2n sweeps of
+ * at most n rotations, each 6 u, less than 12 n^1.5 u |A|_F in practice and 24 n^2 in the worst case (Wilkinson). 40 n^2 u covers both; for
+ * n = 12: 2^-40. */
+static double tolerance(int n, double size)
+{
+    return 40.0 * n * n * UNIT_ROUNDOFF * size;
+}
 
 static double frobenius(int n, const double *A)
 {
@@ -194,12 +198,9 @@ static void test_check_rejects(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_random),
-        cmocka_unit_test(test_special),
-        cmocka_unit_test(test_scales),
-        cmocka_unit_test(test_upper_triangle_is_not_read),
-        cmocka_unit_test(test_not_finite),
-        cmocka_unit_test(test_check_rejects),
+        cmocka_unit_test(test_random),     cmocka_unit_test(test_special),
+        cmocka_unit_test(test_scales),     cmocka_unit_test(test_upper_triangle_is_not_read),
+        cmocka_unit_test(test_not_finite), cmocka_unit_test(test_check_rejects),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
