@@ -129,17 +129,14 @@ cipc_status cipc_dirichlet_finish(cipc_stepper *s, int iteration, bool *done, ci
     double alpha;
     way_to_target(s);
     cipc_status status = free_part_of_way(s, &alpha, error);
-    if (status || alpha == 0) return status;
-    *done = alpha == 1;
-    if (*done) {
-        put_on_target(s);
-        s->penalty = 0;
-        set_moving_free(s, false);
-        renumber_if_changed(s);
-    } else {
-        for (int i = 0; i < 3 * s->model->node_count; i++) s->x[i] += alpha * s->direction[i];
-    }
-    if (!status) status = cipc_cache_cover(s, s->x, NULL, error);
+    /* All of the way or nothing: a part of it, taken again and again, would shrink the gap in it tenfold each time. */
+    if (status || alpha < 1) return status;
+    put_on_target(s);
+    s->penalty = 0;
+    set_moving_free(s, false);
+    renumber_if_changed(s);
+    *done = true;
+    status = cipc_cache_cover(s, s->x, NULL, error);
     if (!status) status = cipc_contacts_at(s, s->x, &s->contacts, error);
     return status ? status : cipc_accept(s, iteration, false, 0, 0, error);
 }
