@@ -490,7 +490,10 @@ static void test_progress_on_a_terminal(void **state)
     const fixture *f = *state;
     for (int quiet = 0; quiet < 2; quiet++) {
         const int terminal = posix_openpt(O_RDWR | O_NOCTTY);
-        assert_true(terminal >= 0 && grantpt(terminal) == 0 && unlockpt(terminal) == 0);
+        if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) { /* a bare chroot without /dev/pts */
+            print_message("this machine has no pseudo-terminals: the progress line cannot be looked at\n");
+            skip();
+        }
         const int end = open(ptsname(terminal), O_RDWR | O_NOCTTY);
         const pid_t child = fork();
         if (child == 0) {
