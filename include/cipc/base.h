@@ -1,8 +1,9 @@
-/* cipc/base.h - status codes, error text, checked memory.
+/* cipc/base.h - status codes, error text, checked memory, the words for pairs of primitives.
  * Floor 0. Everything above uses these; they use nothing of cipc. */
 #ifndef CIPC_BASE_H
 #define CIPC_BASE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 
 /* Every diagnostic of cipc, once: name, number, default remedy.
@@ -74,6 +75,46 @@ void *cipc_alloc(size_t count, size_t size);
 /* Resize to count elements (new ones are not zeroed); NULL on failure, then the old block stays valid. */
 void *cipc_realloc(void *block, size_t count, size_t size);
 void cipc_free(void *block);
+
+/* ---- Pairs of primitives: the words in which solver, judge and verification speak of them. Types and names only, no arithmetic. ---------- */
+
+/* The kinds of primitive pairs, and of the closest features between two primitives. A stencil is the concatenation of its nodes' positions, m,
+ * point or first edge first: point-point x[6] = p, q; point-edge x[9] = p, e0, e1; point-triangle x[12] = p, t0, t1, t2; edge-edge x[12] = a0,
+ * a1, b0, b1. */
+typedef enum cipc_pair_kind { CIPC_POINT_POINT = 0, CIPC_POINT_EDGE, CIPC_POINT_TRIANGLE, CIPC_EDGE_EDGE, CIPC_PAIR_KIND_COUNT } cipc_pair_kind;
+
+/* The closest features of a stencil: their kind and which local nodes of the stencil span them, in the order of that kind's stencil.
+ * For example a point-triangle whose closest feature is the edge t1 t2: {CIPC_POINT_EDGE, 3, {0, 2, 3, 0}}. Unused entries are 0. */
+typedef struct cipc_feature {
+    cipc_pair_kind kind;
+    int count;    /* nodes of the feature pair: 2, 3 or 4 */
+    int local[4]; /* indices into the stencil */
+} cipc_feature;
+
+/* "point_point", "point_edge", "point_triangle", "edge_edge"; nodes of its stencil (2, 3, 4, 4); nodes of its first primitive (1, 1, 1, 2). */
+const char *cipc_pair_name(cipc_pair_kind kind);
+int cipc_pair_nodes(cipc_pair_kind kind);
+int cipc_pair_first_nodes(cipc_pair_kind kind);
+
+/* The features a kind can have, numbered; a set of them is an unsigned with bit i for feature i. Names as in the conformance protocol:
+ *   point_point     p-q
+ *   point_edge      p-e0 p-e1 p-e
+ *   point_triangle  p-t0 p-t1 p-t2  p-t0t1 p-t1t2 p-t2t0  p-t
+ *   edge_edge       a0-b0 a0-b1 a1-b0 a1-b1  a0-b a1-b b0-a b1-a  a-b */
+enum { CIPC_FEATURE_LIMIT = 9 };
+int cipc_feature_count(cipc_pair_kind kind);
+cipc_feature cipc_feature_at(cipc_pair_kind kind, int index);
+const char *cipc_feature_name(cipc_pair_kind kind, int index);
+/* Number of a feature, or -1: not one of that kind's. The ends of an edge may come in either order. */
+int cipc_feature_index(cipc_pair_kind kind, const cipc_feature *feature);
+
+/* A stencil in straight motion, t in [0, 1]. to_end false: x + t p with the displacements p, m. to_end true: p holds the positions at t = 1, and the
+ * displacements are the exact differences p - x, which need not be doubles. Only the first 3 * cipc_pair_nodes(kind) numbers are looked at. */
+typedef struct cipc_stencil_path {
+    cipc_pair_kind kind;
+    bool to_end;
+    double x[12], p[12];
+} cipc_stencil_path;
 
 /* Version of the library, "0.1.0". */
 const char *cipc_version(void);

@@ -12,5 +12,6 @@
 #include "cipc/invariant.h"
 #include "cipc/scene.h"
 #include "cipc/output.h"
+#include "cipc/verify.h"
 
 #endif

@@ -62,17 +62,42 @@ cipc_contact_options cipc_contact_options_default(void);
 cipc_status cipc_contact_set_build(cipc_contact_set *set, const cipc_model *model, const cipc_candidates *candidates, const double *x,
                                    double stiffness, const cipc_contact_options *options, int threads, cipc_error *error);
 
-/* Additive CCD (SPEC C.5, Algorithm 1). x[n], p[n]: the stencil's positions and displacements. thickness xi, slackness s in (0,1),
- * t_max in (0,1]. Returns the largest step certified by the algorithm: t_max if no contact is met before it. kind as in geometry.h. */
+/* Continuous collision detection of one pair: how far may the stencil go along its path? */
+typedef enum cipc_ccd_method {
+    CIPC_CCD_CERTIFIED = 0, /* additive CCD, conservative in double arithmetic by construction, MPFR where doubles do not suffice (SPEC V.4) */
+    CIPC_CCD_ADDITIVE,      /* additive CCD as in the paper (SPEC C.5, Algorithm 1): the readable form, not conservative under rounding */
+    CIPC_CCD_CUBIC          /* roots of the coplanarity cubic in floating point (GSL): the baseline that the paper shows failing; ignores thickness */
+} cipc_ccd_method;
 typedef struct cipc_ccd_options {
+    cipc_ccd_method method;
     double slackness;   /* s */
     int max_iterations;
-    bool gap_first;     /* the paper's order of tests, with its early hits just beyond t_max (as the released code) */
+    bool gap_first;     /* additive only: the paper's order of tests, with its early hits just beyond t_max (as the released code) */
+    bool refine;        /* certified only: go on beyond the target gap s (d - xi) while that is cheap, to tell early hits from true ones */
 } cipc_ccd_options;
 cipc_ccd_options cipc_ccd_options_default(void);
-typedef struct cipc_ccd_result { double toi; bool hit; int iterations; bool capped; } cipc_ccd_result;
+typedef enum cipc_ccd_outcome {
+    CIPC_CCD_FREE = 0,       /* no contact on [0, t_max]; toi = t_max */
+    CIPC_CCD_HIT,            /* stopped before contact, or before a gap below s (d - xi); toi in (0, t_max] */
+    CIPC_CCD_INITIALLY_CLOSE,/* d <= xi at the start; toi = 0 */
+    CIPC_CCD_INDETERMINATE   /* the caps of iterations and precision were met; toi = last certified time */
+} cipc_ccd_outcome;
+typedef struct cipc_ccd_result {
+    double toi;
+    bool hit; /* outcome is not CIPC_CCD_FREE */
+    int iterations;
+    bool capped;
+    cipc_ccd_outcome outcome;
+    int precision; /* bits of the arithmetic that the answer was found in: 53 for doubles */
+} cipc_ccd_result;
+/* x[n], p[n]: the stencil's positions and displacements. thickness xi >= 0, slackness s in (0,1), t_max in (0,1]. */
 cipc_ccd_result cipc_additive_ccd(cipc_pair_kind kind, const double *x, const double *p, double thickness, double t_max,
                                   const cipc_ccd_options *options);
+/* For every path: exact distance > thickness on all of [0, toi] (unless initially close), toi > 0 unless initially close (docs/theory/certified_ccd.md). */
+cipc_ccd_result cipc_certified_ccd(const cipc_stencil_path *path, double thickness, double t_max, const cipc_ccd_options *options);
+cipc_ccd_result cipc_cubic_ccd(const cipc_stencil_path *path, double thickness, double t_max, const cipc_ccd_options *options);
+/* By options->method. */
+cipc_ccd_result cipc_ccd(const cipc_stencil_path *path, double thickness, double t_max, const cipc_ccd_options *options);
 
 /* The smallest step of cipc_additive_ccd over all candidates on the path x + t p, t in [0, t_max]; the limiting stencil's nodes and kind in
  * *nodes and *edge_edge (may be NULL; -1 if nothing limits). Thickness is each pair's xi. */

@@ -131,6 +131,15 @@ void cipc_friction_mollifier(double y, double e, double f[3]);
 
 enum { CIPC_INVARIANT_TRANSLATION = 1, CIPC_INVARIANT_ROTATION = 2 };
 
+/* One member of a params struct: `count` doubles at `offset`, or (feature true) a cipc_feature, which counts as one number: its
+ * cipc_feature_index among the features of edge-edge. */
+typedef struct cipc_energy_field {
+    const char *name;
+    size_t offset;
+    int count;
+    bool feature;
+} cipc_energy_field;
+
 /* One energy as the assembler, the derivative checkers and the campaigns see it. */
 typedef struct cipc_energy {
     const char *name;   /* "hinge_bending": the file's name */
@@ -146,6 +155,9 @@ typedef struct cipc_energy {
     void (*sample)(gsl_rng *rng, int branch, double *x, void *params);
     /* Which branch a configuration is on (what was reached, not what was aimed at). */
     int (*branch)(const double *x, const void *params);
+    /* The members of the params struct, all of them, in order: as a flat list of doubles they are what oracle and conformance vectors speak. */
+    int field_count;
+    const cipc_energy_field *fields;
 } cipc_energy;
 
 typedef enum cipc_energy_id {
@@ -160,5 +172,10 @@ typedef enum cipc_energy_id {
 const cipc_energy *cipc_energy_entry(cipc_energy_id id);
 /* By name, or NULL. */
 const cipc_energy *cipc_energy_find(const char *name);
+/* The flat list of an energy's parameters: its length (at most CIPC_ENERGY_NUMBERS), and both ways. Reading is false for a feature that is none. */
+enum { CIPC_ENERGY_NUMBERS = 32 };
+int cipc_energy_number_count(const cipc_energy *energy);
+void cipc_energy_numbers(const cipc_energy *energy, const void *params, double *numbers);
+bool cipc_energy_params(const cipc_energy *energy, const double *numbers, void *params);
 
 #endif

@@ -10,17 +10,6 @@
 #include <stddef.h>
 #include "cipc/base.h"
 
-/* The kinds of primitive pairs, and of the closest features between two primitives. */
-typedef enum cipc_pair_kind { CIPC_POINT_POINT = 0, CIPC_POINT_EDGE, CIPC_POINT_TRIANGLE, CIPC_EDGE_EDGE, CIPC_PAIR_KIND_COUNT } cipc_pair_kind;
-
-/* The closest features of a stencil: their kind and which local nodes of the stencil span them, in the order of that kind's stencil.
- * For example a point-triangle whose closest feature is the edge t1 t2: {CIPC_POINT_EDGE, 3, {0, 2, 3, 0}}. Unused entries are 0. */
-typedef struct cipc_feature {
-    cipc_pair_kind kind;
-    int count;    /* nodes of the feature pair: 2, 3 or 4 */
-    int local[4]; /* indices into the stencil */
-} cipc_feature;
-
 /* Closest features (SPEC D.1, V.4): right for degenerate (zero-length edge, zero-area triangle) and near-parallel input. A feature
  * that is not unique (parallel edges, ties) is any one that attains the minimum to within rounding. A feature is only ever reported
  * as CIPC_POINT_EDGE / _TRIANGLE / _EDGE_EDGE when the smooth formula below is defined there (edge of positive length, n != 0). */

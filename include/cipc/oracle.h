@@ -1,23 +1,85 @@
-/* cipc/oracle.h - the truth, in exact rational arithmetic (GMP). Shares no arithmetic with the code it judges.
- * Floor 3; included only by invariant/, verify/, cli/ and tests. All functions are pure and thread-safe. */
+/* cipc/oracle.h - the truth, in exact rational arithmetic (GMP) and in MPFR. Shares no arithmetic with the code it judges.
+ * Floor 3; included only by invariant/, verify/, cli/ and tests. All functions are pure and thread-safe. Inputs are doubles and are taken as the
+ * dyadic rationals that they are (SPEC V.1). Non-finite input proves nothing: see each function. */
 #ifndef CIPC_ORACLE_H
 #define CIPC_ORACLE_H
 
 #include <stdbool.h>
+#include <mpfr.h>
 #include "cipc/base.h"
 
-/* Exact sign of d^2 - xi^2 for the true distance d of point-triangle (edge_edge false; x = p, t0, t1, t2) or edge-edge (x = a0, a1, b0,
- * b1), m, and the squared distance rounded to nearest (ties to even) in *distance2 (may be NULL), m^2. xi >= 0. Any finite doubles;
- * degenerate primitives are the sets they are. Non-finite input proves nothing: -1, and NaN in *distance2. (SPEC V.2) */
-int cipc_exact_compare_distance(bool edge_edge, const double x[12], double xi, double *distance2);
+/* The answer to an exact question. INDETERMINATE: a precision cap was met, or the input was not finite; never a guess. */
+typedef enum cipc_verdict { CIPC_NO = 0, CIPC_YES, CIPC_INDETERMINATE } cipc_verdict;
 
-/* The gap d - xi rounded to nearest (ties to even), m; same arguments. Its sign is that of d - xi, unless it underflows to 0.
- * NaN for non-finite input. (SPEC V.2) */
+/* --- distance (SPEC V.2) ----------------------------------------------------------------------------------------------------------------- */
+
+/* The squared distance of the two primitives of a stencil rounded to nearest (ties to even), m^2, and the set of all features that attain it (bit i:
+ * cipc_feature_name(kind, i)) in *features (may be NULL). A feature counts if its own closest points really lie in it: an edge's interior needs a foot
+ * strictly inside, a face all barycentrics > 0. Degenerate primitives are the sets they are. Non-finite input: NaN and no features. */
+double cipc_exact_distance2(cipc_pair_kind kind, const double *x, unsigned *features);
+
+/* computed - d^2, rounded to nearest: how far a computed squared distance is off. NaN for non-finite input. */
+double cipc_exact_distance2_error(cipc_pair_kind kind, const double *x, double computed);
+
+/* Exact sign of d^2 - xi^2. xi >= 0. Non-finite input: -1. */
+int cipc_exact_distance_sign(cipc_pair_kind kind, const double *x, double xi);
+
+/* The gap d - xi rounded to nearest (ties to even), m. Its sign is that of d - xi, unless it underflows to 0. NaN for non-finite input. */
+double cipc_exact_distance_gap(cipc_pair_kind kind, const double *x, double xi);
+
+/* The same of point-triangle (edge_edge false) and edge-edge, with the squared distance rounded to nearest in *distance2 (may be NULL). */
+int cipc_exact_compare_distance(bool edge_edge, const double x[12], double xi, double *distance2);
 double cipc_exact_gap(bool edge_edge, const double x[12], double xi);
+
+/* --- intersection (SPEC V.5 M1) ------------------------------------------------------------------------------------------------------------ */
+
+/* Have the two closed sets a point in common? Touching counts; degenerate ones are the sets they are. */
+cipc_verdict cipc_exact_edge_triangle(const double edge[6], const double triangle[9]);
+cipc_verdict cipc_exact_triangle_triangle(const double a[9], const double b[9]);
+
+/* --- time of impact (SPEC V.3) ------------------------------------------------------------------------------------------------------------- */
+
+/* YES: the distance first equals or falls below xi at a time in [lo, hi], 0 <= lo <= hi <= t_max, the doubles around an enclosure of width 2^-200
+ * (equal if the time is a double); 0, 0 if d(0) <= xi. Touching without crossing is a hit. NO: d > xi on all of [0, t_max]; lo = hi = NaN.
+ * xi >= 0, 0 <= t_max <= 1. */
+typedef struct cipc_exact_impact {
+    cipc_verdict verdict;
+    double lo, hi;
+} cipc_exact_impact;
+cipc_exact_impact cipc_exact_toi(const cipc_stencil_path *path, double xi, double t_max);
+
+/* YES: d > xi on all of [0, t]. The question that a step's certificate answers. */
+cipc_verdict cipc_exact_path_clear(const cipc_stencil_path *path, double xi, double t);
+
+/* The least distance over [0, t], m: *lo <= it <= *hi, neighbouring doubles or equal, reached about the time *at (each may be NULL). */
+cipc_verdict cipc_exact_path_minimum(const cipc_stencil_path *path, double t, double *lo, double *hi, double *at);
+
+/* --- strain (SPEC V.5 M3) ------------------------------------------------------------------------------------------------------------------ */
 
 /* Exact sign of s - sigma_1 for the largest principal stretch of a triangle with rest positions X[9] and positions x[9]:
  * s^2 Ibar - I positive definite <=> +1, semi-definite <=> 0, else -1 (Ibar, I: first fundamental forms; all rational). s > 0.
- * Non-finite input proves nothing: -1. (SPEC V.5 M3) */
+ * Non-finite input proves nothing: -1. */
 int cipc_exact_compare_stretch(const double rest[9], const double x[9], double limit);
+
+/* --- values and derivatives (SPEC V.6) ------------------------------------------------------------------------------------------------------ */
+
+/* A function of a stencil: every energy of the registry under its name there, and the smooth squared distances "distance2_point_point",
+ * "distance2_point_line", "distance2_point_plane", "distance2_line_line" and "edge_edge_mollifier". Parameters are a flat list of doubles in the order of
+ * `fields` (names as in the conformance protocol; "basis[0]" and so on for arrays). */
+typedef struct cipc_oracle_function {
+    const char *name;
+    int nodes;
+    int field_count;
+    const char *const *fields;
+    /* r := value at x[3 * nodes], at the precision of r and at least that of the operands; +inf where the function is infeasible. */
+    void (*value)(mpfr_t r, const mpfr_t *x, const double *fields);
+} cipc_oracle_function;
+int cipc_oracle_function_count(void);
+const cipc_oracle_function *cipc_oracle_function_at(int index);
+const cipc_oracle_function *cipc_oracle_function_find(const char *name); /* or NULL */
+
+/* Value, gradient g[n] and Hessian H[n * n], n = 3 * nodes, each rounded from about 60 digits (central differences at 512 bits, step 2^-100 of the
+ * stencil's size); g and H may be NULL. INDETERMINATE: infeasible there, not finite, or the two precisions disagree. */
+cipc_verdict cipc_oracle_evaluate(const cipc_oracle_function *function, const double *x, const double *fields, double *value, double *g, double *H);
 
 #endif
