@@ -25,13 +25,16 @@
     X(INITIAL_INTERSECTION, 2009, "move the bodies apart in the scene")                                               \
     X(INITIAL_GAP, 2010, "move the bodies apart or lower their offset")                                               \
     X(INITIAL_STRAIN, 2011, "start from a less stretched shape or raise the limit")                                   \
+    X(BAD_QUERY, 2013, "mend the query at the line named; docs/conformance.md has the format")                        \
     X(NOT_RESUMABLE, 2012, "start afresh in another output folder")                                                   \
     X(VIOLATED_INTERSECTION, 3001, "a defect of the solver: please report it with the state written")                 \
     X(VIOLATED_GAP, 3002, "a defect of the solver: please report it with the state written")                          \
     X(VIOLATED_STRAIN, 3003, "a defect of the solver: please report it with the state written")                       \
     X(VIOLATED_INVERSION, 3004, "a defect of the solver: please report it with the state written")                    \
+    X(VIOLATED_SWEPT, 3005, "a defect of the solver: please report it with the state written")                        \
     X(VIOLATED_ENERGY, 3006, "a defect of the solver: please report it with the state written")                       \
     X(VIOLATED_FINITE, 3008, "a defect of the solver: please report it with the state written")                       \
+    X(FAILED_VERDICT, 3010, "look at the worst cases named; cipc eval and cipc judge replay them")                    \
     X(INDETERMINATE, 3009, "the exact arithmetic gave up at its precision cap: please report the state written")
 
 typedef enum cipc_status {
@@ -95,6 +98,8 @@ typedef struct cipc_feature {
 const char *cipc_pair_name(cipc_pair_kind kind);
 int cipc_pair_nodes(cipc_pair_kind kind);
 int cipc_pair_first_nodes(cipc_pair_kind kind);
+/* The two kinds of pairs of a triangle mesh. */
+cipc_pair_kind cipc_mesh_pair(bool edge_edge);
 
 /* The features a kind can have, numbered; a set of them is an unsigned with bit i for feature i. Names as in the conformance protocol:
  *   point_point     p-q

@@ -27,10 +27,6 @@ int cipc_exact_distance_sign(cipc_pair_kind kind, const double *x, double xi);
 /* The gap d - xi rounded to nearest (ties to even), m. Its sign is that of d - xi, unless it underflows to 0. NaN for non-finite input. */
 double cipc_exact_distance_gap(cipc_pair_kind kind, const double *x, double xi);
 
-/* The same of point-triangle (edge_edge false) and edge-edge, with the squared distance rounded to nearest in *distance2 (may be NULL). */
-int cipc_exact_compare_distance(bool edge_edge, const double x[12], double xi, double *distance2);
-double cipc_exact_gap(bool edge_edge, const double x[12], double xi);
-
 /* --- intersection (SPEC V.5 M1) ------------------------------------------------------------------------------------------------------------ */
 
 /* Have the two closed sets a point in common? Touching counts; degenerate ones are the sets they are. */

@@ -50,6 +50,8 @@ int cipc_pair_nodes(cipc_pair_kind kind) { return kinds[kind].nodes; }
 
 int cipc_pair_first_nodes(cipc_pair_kind kind) { return kinds[kind].first_nodes; }
 
+cipc_pair_kind cipc_mesh_pair(bool edge_edge) { return edge_edge ? CIPC_EDGE_EDGE : CIPC_POINT_TRIANGLE; }
+
 int cipc_feature_count(cipc_pair_kind kind) { return kinds[kind].feature_count; }
 
 cipc_feature cipc_feature_at(cipc_pair_kind kind, int index) { return kinds[kind].features[index].feature; }

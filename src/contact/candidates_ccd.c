@@ -49,7 +49,7 @@ static void test_candidate(const cipc_model *model, const cipc_candidates *c, co
     cipc_stencil_positions(p, nodes, q);
     double xi = cipc_model_pair_offset(model, nodes[0], nodes[2]);
     if (swept_apart(y, q, edge_edge ? 2 : 1, options->gap_first ? 1 : t_max, xi)) return; /* the released code looks at the whole path */
-    cipc_ccd_result r = cipc_additive_ccd_until(edge_edge ? CIPC_EDGE_EDGE : CIPC_POINT_TRIANGLE, y, q, xi, t_max, best->t, options);
+    cipc_ccd_result r = cipc_additive_ccd_until(cipc_mesh_pair(edge_edge), y, q, xi, t_max, best->t, options);
     if (r.hit && (r.toi < best->t || best->index < 0)) {
         best->t = r.toi;
         best->index = index;

@@ -64,7 +64,8 @@ static void measure(measured_pair *p, const double *x, double reach)
     p->gap = s.lower - p->offset;
     if (p->exact) {
         double distance2;
-        p->violated = cipc_exact_compare_distance(p->edge_edge, stencil, p->offset, &distance2) <= 0;
+        distance2 = cipc_exact_distance2(cipc_mesh_pair(p->edge_edge), stencil, NULL);
+        p->violated = cipc_exact_distance_sign(cipc_mesh_pair(p->edge_edge), stencil, p->offset) <= 0;
         p->gap = sqrt(distance2) - p->offset;
     }
 }
@@ -101,8 +102,8 @@ static cipc_status fail_gap(const cipc_model *m, const double *x, const measured
 {
     double stencil[12], distance2;
     cipc_gather(stencil, x, p->nodes, 4);
-    cipc_exact_compare_distance(p->edge_edge, stencil, p->offset, &distance2);
-    double distance = sqrt(distance2), gap = cipc_exact_gap(p->edge_edge, stencil, p->offset);
+    distance2 = cipc_exact_distance2(cipc_mesh_pair(p->edge_edge), stencil, NULL);
+    double distance = sqrt(distance2), gap = cipc_exact_distance_gap(cipc_mesh_pair(p->edge_edge), stencil, p->offset);
     const int *n = p->nodes;
     const char *a = cipc_monitor_body(m, n[0]), *b = cipc_monitor_body(m, n[3]);
     static const char values[] = "distance %.17g (%a) must exceed the offset %.17g (%a); exact gap, rounded: %.17g (%a)";
@@ -127,7 +128,7 @@ static void fill_report(cipc_invariant_report *report, const gap_result *r, cons
     if (r->any) {
         double stencil[12];
         cipc_gather(stencil, x, r->least.nodes, 4);
-        report->min_gap = cipc_exact_gap(r->least.edge_edge, stencil, r->least.offset);
+        report->min_gap = cipc_exact_distance_gap(cipc_mesh_pair(r->least.edge_edge), stencil, r->least.offset);
         report->min_gap_is_edge_edge = r->least.edge_edge ? 1 : 0;
     }
 }

@@ -32,10 +32,10 @@ static void look_at_gap(plain_report *r, const cipc_model *m, const double *x, b
     gather(stencil, x, a, na);
     gather(&stencil[3 * na], x, b, nb);
     double xi = 0.5 * (m->bodies[m->node_body[a[0]]].offset + m->bodies[m->node_body[b[0]]].offset);
-    double gap = cipc_exact_gap(edge_edge, stencil, xi);
+    double gap = cipc_exact_distance_gap(cipc_mesh_pair(edge_edge), stencil, xi);
     r->min_gap = fmin(r->min_gap, gap);
     r->within += gap <= reach ? 1 : 0;
-    r->gap_violated = r->gap_violated || cipc_exact_compare_distance(edge_edge, stencil, xi, NULL) <= 0;
+    r->gap_violated = r->gap_violated || cipc_exact_distance_sign(cipc_mesh_pair(edge_edge), stencil, xi) <= 0;
 }
 
 static void look_at_edge(plain_report *r, const cipc_model *m, const double *x, int edge, double reach, bool skip_fixed)

@@ -71,7 +71,7 @@ static void must_find_close_pair(void *context, bool edge_edge, const int pair[2
         else
             soup_stencil(q->s->x, nodes, y);
         if (soup_box_distance(edge_edge, y) > 1.001 * (xi + q->reach)) continue;
-        if (cipc_exact_gap(edge_edge, y, xi) > q->reach) continue;
+        if (cipc_exact_distance_gap(cipc_mesh_pair(edge_edge), y, xi) > q->reach) continue;
         if (!found(q, edge_edge, pair)) fail_msg("lost: %s %d %d", edge_edge ? "edges" : "node and triangle", pair[0], pair[1]);
         q->close++;
         return;

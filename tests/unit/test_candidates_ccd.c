@@ -22,7 +22,7 @@ static void keep_apart(void *context, bool edge_edge, const int pair[2], const i
     cipc_candidates *c = ((void **)context)[1];
     double y[12];
     soup_stencil(s->x, nodes, y);
-    if (soup_box_distance(edge_edge, y) <= xi && cipc_exact_gap(edge_edge, y, xi) <= 0) return;
+    if (soup_box_distance(edge_edge, y) <= xi && cipc_exact_distance_gap(cipc_mesh_pair(edge_edge), y, xi) <= 0) return;
     int(**pairs)[2] = edge_edge ? &c->edge_edge : &c->point_triangle, *count = edge_edge ? &c->edge_edge_count : &c->point_triangle_count;
     memcpy((*pairs)[(*count)++], pair, 2 * sizeof(int));
 }
@@ -101,7 +101,7 @@ static answer plain(const trial *t)
         if (paths_apart(t, edge_edge, nodes, xi, t->options.gap_first ? 1 : t->t_max)) continue;
         soup_stencil(t->s->x, nodes, y);
         soup_stencil(t->s->p, nodes, q);
-        cipc_ccd_result r = cipc_additive_ccd(edge_edge ? CIPC_EDGE_EDGE : CIPC_POINT_TRIANGLE, y, q, xi, t->t_max, &t->options);
+        cipc_ccd_result r = cipc_additive_ccd(cipc_mesh_pair(edge_edge), y, q, xi, t->t_max, &t->options);
         if (!r.hit || (any && r.toi >= best.t)) continue;
         any = true;
         best = (answer){.t = r.toi, .nodes = {nodes[0], nodes[1], nodes[2], nodes[3]}, .edge_edge = edge_edge};
@@ -162,7 +162,7 @@ static void assert_apart_on_the_way(void *context, bool edge_edge, const int pai
     for (int i = 0; i < PLACES; i++) {
         soup_moved_stencil(s->x, s->p, step * i / (PLACES - 1), nodes, y);
         if (soup_box_distance(edge_edge, y) > xi) continue;
-        bool apart = cipc_exact_gap(edge_edge, y, xi) > 0;
+        bool apart = cipc_exact_distance_gap(cipc_mesh_pair(edge_edge), y, xi) > 0;
         if (i == 0 && !apart) return; /* not one of the candidates */
         assert_true(apart);
     }

@@ -83,7 +83,7 @@ static void add_pair(void *context, bool edge_edge, const int pair[2], const int
     double y[12], distance2, dhat = set->options.dhat, b[3];
     soup_stencil(set->x, nodes, y);
     bool far = soup_box_distance(edge_edge, y) > xi + dhat;
-    plain_pair p = {.gap = far ? INFINITY : cipc_exact_gap(edge_edge, y, xi), .weight = 1};
+    plain_pair p = {.gap = far ? INFINITY : cipc_exact_distance_gap(cipc_mesh_pair(edge_edge), y, xi), .weight = 1};
     if (p.gap < set->least_gap) return;
     cipc_candidates *c = &set->candidates;
     memcpy(edge_edge ? c->edge_edge[c->edge_edge_count++] : c->point_triangle[c->point_triangle_count++], pair, 2 * sizeof(int));
@@ -92,7 +92,7 @@ static void add_pair(void *context, bool edge_edge, const int pair[2], const int
         p.weight = edge_edge ? 0.5 * (m->edge_area[pair[0]] + m->edge_area[pair[1]]) / set->mean_edge_area
                              : m->node_area[nodes[0]] / set->mean_node_area;
     classify(&p, edge_edge, y, nodes, set->options.merge_directed);
-    cipc_exact_compare_distance(edge_edge, y, xi, &distance2);
+    distance2 = cipc_exact_distance2(cipc_mesh_pair(edge_edge), y, NULL);
     cipc_barrier(distance2 - xi * xi, dhat * dhat + 2 * xi * dhat, b);
     p.value = STIFFNESS * p.weight * b[0];
     if (edge_edge) {

@@ -48,15 +48,16 @@ static void test_known_cases(void **state)
     (void)state;
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         double distance2 = -1, xi = sqrt(known[i].distance2);
-        int sign = cipc_exact_compare_distance(known[i].edge_edge, known[i].x, 0, &distance2);
+        distance2 = cipc_exact_distance2(cipc_mesh_pair(known[i].edge_edge), known[i].x, NULL);
+        int sign = cipc_exact_distance_sign(cipc_mesh_pair(known[i].edge_edge), known[i].x, 0);
         if (distance2 != known[i].distance2 || sign != (distance2 > 0)) {
             fail_msg("%s: %g, expected %g", known[i].name, distance2, known[i].distance2);
         }
         if (xi * xi == known[i].distance2) {
-            assert_int_equal(cipc_exact_compare_distance(known[i].edge_edge, known[i].x, xi, NULL), 0);
-            assert_true(cipc_exact_gap(known[i].edge_edge, known[i].x, xi) == 0);
+            assert_int_equal(cipc_exact_distance_sign(cipc_mesh_pair(known[i].edge_edge), known[i].x, xi), 0);
+            assert_true(cipc_exact_distance_gap(cipc_mesh_pair(known[i].edge_edge), known[i].x, xi) == 0);
         }
-        assert_int_equal(cipc_exact_compare_distance(known[i].edge_edge, known[i].x, nextafter(xi, INFINITY), NULL), -1);
+        assert_int_equal(cipc_exact_distance_sign(cipc_mesh_pair(known[i].edge_edge), known[i].x, nextafter(xi, INFINITY)), -1);
     }
 }
 
@@ -86,12 +87,13 @@ static void test_against_the_slow_twin(void **state)
         draw_stencil(&seed, stencil);
         bool edge_edge = random_below(&seed, 2) == 1;
         q_set(x, stencil, 12);
-        exact_minimum(best, edge_edge ? CIPC_EDGE_EDGE : CIPC_POINT_TRIANGLE, x);
+        exact_minimum(best, cipc_mesh_pair(edge_edge), x);
         double xi = random_below(&seed, 3) == 0 ? 0.125 * random_below(&seed, 9) : sqrt(mpq_get_d(best));
         mpq_set_d(square, xi);
         mpq_mul(square, square, square);
         int expected = mpq_cmp(best, square);
-        int sign = cipc_exact_compare_distance(edge_edge, stencil, xi, &distance2);
+        distance2 = cipc_exact_distance2(cipc_mesh_pair(edge_edge), stencil, NULL);
+        int sign = cipc_exact_distance_sign(cipc_mesh_pair(edge_edge), stencil, xi);
         assert_int_equal(sign, (expected > 0) - (expected < 0));
         signs[sign + 1]++;
         /* mpq_get_d truncates: the nearest double is that or the next. */
@@ -109,8 +111,8 @@ static void assert_gap_is_nearest(bool edge_edge, const double stencil[12], doub
     q_init(x, 12);
     mpq_inits(best, bound, half, NULL);
     q_set(x, stencil, 12);
-    exact_minimum(best, edge_edge ? CIPC_EDGE_EDGE : CIPC_POINT_TRIANGLE, x);
-    double gap = cipc_exact_gap(edge_edge, stencil, xi);
+    exact_minimum(best, cipc_mesh_pair(edge_edge), x);
+    double gap = cipc_exact_distance_gap(cipc_mesh_pair(edge_edge), stencil, xi);
     for (int side = -1; side <= 1; side += 2) {
         mpq_set_d(bound, gap);
         mpq_set_d(half, nextafter(gap, side < 0 ? -INFINITY : INFINITY));
@@ -136,7 +138,7 @@ static void test_gap_is_rounded_to_nearest(void **state)
         draw_stencil(&seed, stencil);
         bool edge_edge = random_below(&seed, 2) == 1;
         double distance2;
-        cipc_exact_compare_distance(edge_edge, stencil, 0, &distance2);
+        distance2 = cipc_exact_distance2(cipc_mesh_pair(edge_edge), stencil, NULL);
         /* xi within a few ulp of d: the gap is what plain subtraction would lose altogether. */
         double xi = sqrt(distance2) * (1 + (random_below(&seed, 9) - 4) * DBL_EPSILON);
         assert_gap_is_nearest(edge_edge, stencil, i % 2 == 0 ? xi : 0.5 * xi);
@@ -148,13 +150,13 @@ static void test_gap_beyond_double(void **state)
     (void)state;
     /* A plane tilted by less than 2^-300. */
     const double x[12] = {0.25, 0.25, 1, -8, -8, -0x1p-300, 8, -8, 0, 0, 8, 0};
-    double gap = cipc_exact_gap(false, x, 1);
+    double gap = cipc_exact_distance_gap(CIPC_POINT_TRIANGLE, x, 1);
     assert_true(gap > 0 && gap < 0x1p-290);
-    assert_int_equal(cipc_exact_compare_distance(false, x, 1, NULL), 1);
+    assert_int_equal(cipc_exact_distance_sign(CIPC_POINT_TRIANGLE, x, 1), 1);
     /* d = sqrt(1 + 2^-200), xi = 1: the gap is 2^-201 less a little; d^2 - xi^2 in doubles is 0. */
     const double y[12] = {3, 0, 0x1p-100, 3, 0, 0x1p-100, 2, 0, 0, 2, 0, 0};
-    assert_true(cipc_exact_gap(true, y, 1) == 0x1p-201);
-    assert_true(cipc_exact_gap(true, y, 2) == -1);
+    assert_true(cipc_exact_distance_gap(CIPC_EDGE_EDGE, y, 1) == 0x1p-201);
+    assert_true(cipc_exact_distance_gap(CIPC_EDGE_EDGE, y, 2) == -1);
 }
 
 static void test_scales(void **state)
@@ -164,25 +166,28 @@ static void test_scales(void **state)
         for (int e = -300; e <= 300; e += 300) {
             double x[12], distance2, xi = sqrt(known[i].distance2);
             for (int k = 0; k < 12; k++) { x[k] = ldexp(known[i].x[k], e); }
-            cipc_exact_compare_distance(known[i].edge_edge, x, 0, &distance2);
+            distance2 = cipc_exact_distance2(cipc_mesh_pair(known[i].edge_edge), x, NULL);
             assert_true(distance2 == ldexp(known[i].distance2, 2 * e));
             if (xi * xi == known[i].distance2) {
-                assert_int_equal(cipc_exact_compare_distance(known[i].edge_edge, x, ldexp(xi, e), NULL), 0);
+                assert_int_equal(cipc_exact_distance_sign(cipc_mesh_pair(known[i].edge_edge), x, ldexp(xi, e)), 0);
             }
         }
     }
     /* Both scales in one stencil, and numbers whose square underflows or overflows. */
     const double mixed[12] = {0, 0, 0x1p-300, -0x1p300, -0x1p300, 0, 0x1p300, -0x1p300, 0, 0, 0x1p300, 0};
     double distance2;
-    assert_int_equal(cipc_exact_compare_distance(false, mixed, 0x1p-300, &distance2), 0);
+    distance2 = cipc_exact_distance2(CIPC_POINT_TRIANGLE, mixed, NULL);
+    assert_int_equal(cipc_exact_distance_sign(CIPC_POINT_TRIANGLE, mixed, 0x1p-300), 0);
     assert_true(distance2 == 0x1p-600);
     const double tiny[12] = {0, 0, 0x1p-1074}, huge[12] = {DBL_MAX};
-    assert_int_equal(cipc_exact_compare_distance(false, tiny, 0, &distance2), 1);
+    distance2 = cipc_exact_distance2(CIPC_POINT_TRIANGLE, tiny, NULL);
+    assert_int_equal(cipc_exact_distance_sign(CIPC_POINT_TRIANGLE, tiny, 0), 1);
     assert_true(distance2 == 0);
-    assert_true(cipc_exact_gap(false, tiny, 0) == 0x1p-1074);
-    assert_int_equal(cipc_exact_compare_distance(false, huge, 1, &distance2), 1);
+    assert_true(cipc_exact_distance_gap(CIPC_POINT_TRIANGLE, tiny, 0) == 0x1p-1074);
+    distance2 = cipc_exact_distance2(CIPC_POINT_TRIANGLE, huge, NULL);
+    assert_int_equal(cipc_exact_distance_sign(CIPC_POINT_TRIANGLE, huge, 1), 1);
     assert_true(isinf(distance2));
-    assert_true(cipc_exact_gap(false, huge, 0) == DBL_MAX);
+    assert_true(cipc_exact_distance_gap(CIPC_POINT_TRIANGLE, huge, 0) == DBL_MAX);
 }
 
 static void test_non_finite_proves_nothing(void **state)
@@ -190,14 +195,14 @@ static void test_non_finite_proves_nothing(void **state)
     (void)state;
     const double bad[] = {NAN, INFINITY, -INFINITY};
     for (int i = 0; i < 3; i++) {
-        double x[12], distance2 = 0;
+        double x[12];
         memcpy(x, known[0].x, sizeof x);
-        assert_int_equal(cipc_exact_compare_distance(false, x, bad[i], &distance2), -1);
+        assert_int_equal(cipc_exact_distance_sign(CIPC_POINT_TRIANGLE, x, bad[i]), -1);
         x[7] = bad[i];
-        assert_int_equal(cipc_exact_compare_distance(false, x, 0, &distance2), -1);
-        assert_int_equal(cipc_exact_compare_distance(true, x, 0, NULL), -1);
-        assert_true(isnan(distance2));
-        assert_true(isnan(cipc_exact_gap(false, x, 0)));
+        assert_int_equal(cipc_exact_distance_sign(CIPC_POINT_TRIANGLE, x, 0), -1);
+        assert_int_equal(cipc_exact_distance_sign(CIPC_EDGE_EDGE, x, 0), -1);
+        assert_true(isnan(cipc_exact_distance2(CIPC_POINT_TRIANGLE, x, NULL)));
+        assert_true(isnan(cipc_exact_distance_gap(CIPC_POINT_TRIANGLE, x, 0)));
     }
 }
 

@@ -52,7 +52,7 @@ static void check_gap_pairs(const invariant_candidates *c, bool edge_edge, const
             double stencil[12];
             cipc_gather(stencil, x, a, na);
             cipc_gather(&stencil[3 * na], x, b, nb);
-            bool within = cipc_exact_compare_distance(edge_edge, stencil, invariant_candidates_offset(m, a[0], b[0]) + c->reach, NULL) <= 0;
+            bool within = cipc_exact_distance_sign(cipc_mesh_pair(edge_edge), stencil, invariant_candidates_offset(m, a[0], b[0]) + c->reach) <= 0;
             assert_true(within ? listed == 1 : listed <= 1);
             *near += within ? 1 : 0;
         }

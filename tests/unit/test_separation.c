@@ -26,9 +26,9 @@ static cipc_separation separate(bool edge_edge, const double x[12], double enoug
 static void assert_is_lower_bound(bool edge_edge, const double x[12], double lower)
 {
     assert_true(lower == lower); /* not NaN */
-    if (lower > 0 && cipc_exact_compare_distance(edge_edge, x, lower, NULL) < 0) {
+    if (lower > 0 && cipc_exact_distance_sign(cipc_mesh_pair(edge_edge), x, lower) < 0) {
         fail_msg("%s: lower bound %.17g above the distance (gap %.3g)", edge_edge ? "edge-edge" : "point-triangle", lower,
-                 cipc_exact_gap(edge_edge, x, lower));
+                 cipc_exact_distance_gap(cipc_mesh_pair(edge_edge), x, lower));
     }
 }
 
@@ -81,7 +81,7 @@ static void test_bounds_are_tight(void **state)
         int shape = i % 3 == 0 ? 3 : i % 3 == 1 ? 0 : 6;
         draw(&seed, shape, x);
         bool edge_edge = random_below(&seed, 2) == 1;
-        cipc_exact_compare_distance(edge_edge, x, 0, &distance2);
+        distance2 = cipc_exact_distance2(cipc_mesh_pair(edge_edge), x, NULL);
         double size = stencil_size(x, 12), distance = sqrt(distance2);
         cipc_separation s = separate(edge_edge, x, INFINITY);
         if (distance >
@@ -156,13 +156,13 @@ static bool edge_triangle_exceeds(const double edge[6], const double triangle[9]
     for (int i = 0; i < 2; i++) {
         memcpy(x, &edge[3 * i], 3 * sizeof *x);
         memcpy(&x[3], triangle, 9 * sizeof *x);
-        exceeds = exceeds && cipc_exact_compare_distance(false, x, distance, NULL) > 0;
+        exceeds = exceeds && cipc_exact_distance_sign(CIPC_POINT_TRIANGLE, x, distance) > 0;
     }
     for (int i = 0; i < 3; i++) {
         memcpy(x, edge, 6 * sizeof *x);
         memcpy(&x[6], &triangle[3 * i], 3 * sizeof *x);
         memcpy(&x[9], &triangle[3 * ((i + 1) % 3)], 3 * sizeof *x);
-        exceeds = exceeds && cipc_exact_compare_distance(true, x, distance, NULL) > 0;
+        exceeds = exceeds && cipc_exact_distance_sign(CIPC_EDGE_EDGE, x, distance) > 0;
     }
     return exceeds;
 }
