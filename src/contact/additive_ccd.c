@@ -8,7 +8,7 @@
 
 cipc_ccd_options cipc_ccd_options_default(void)
 {
-    cipc_ccd_options options = {.slackness = 0.1, .max_iterations = 100000, .gap_first = false};
+    cipc_ccd_options options = {.slackness = 0.1, .max_iterations = 100000, .method = CIPC_CCD_CERTIFIED};
     return options;
 }
 
@@ -78,7 +78,7 @@ cipc_ccd_result cipc_additive_ccd(cipc_pair_kind kind, const double *x, const do
 cipc_ccd_result cipc_additive_ccd_until(cipc_pair_kind kind, const double *x, const double *p, double xi, double t_max, double bound,
                                         const cipc_ccd_options *options)
 {
-    cipc_ccd_result result = {.toi = t_max, .hit = false};
+    cipc_ccd_result result = {.toi = t_max, .outcome = CIPC_CCD_FREE, .precision = 53};
     double x0[12], p0[12], y[12];
     int n = 3 * node_count[kind];
     localize(node_count[kind], x, p, x0, p0);
@@ -90,6 +90,7 @@ cipc_ccd_result cipc_additive_ccd_until(cipc_pair_kind kind, const double *x, co
     if (!(gap > 0)) {
         result.toi = 0;
         result.hit = true;
+        result.outcome = CIPC_CCD_INITIALLY_CLOSE;
         return result;
     }
     double target = options->slackness * gap, t = 0, t_l = (1 - options->slackness) * gap / lp;
@@ -102,6 +103,7 @@ cipc_ccd_result cipc_additive_ccd_until(cipc_pair_kind kind, const double *x, co
         if (t > 0 && gap < target) { /* (15) */
             result.toi = t;
             result.hit = true;
+            result.outcome = CIPC_CCD_HIT;
             return result;
         }
         if (t == 0 && !(gap > 0) && next <= t_max) { /* (18) a first step that rounding spoilt: a shorter one */
@@ -114,6 +116,7 @@ cipc_ccd_result cipc_additive_ccd_until(cipc_pair_kind kind, const double *x, co
     }
     result.toi = t;
     result.hit = true;
+    result.outcome = CIPC_CCD_HIT;
     result.capped = true;
     return result;
 }

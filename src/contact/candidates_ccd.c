@@ -4,7 +4,7 @@
 #include <math.h>
 
 #include "base/vector.h"
-#include "contact/additive_ccd.h"
+#include "contact/ccd.h"
 #include "contact/stencil.h"
 
 /* Do the two primitives' boxes, swept over [0, t] and grown by xi, stay apart? The far corner x + t p is rounded like the path itself; the slack
@@ -43,13 +43,13 @@ static void test_candidate(const cipc_model *model, const cipc_candidates *c, co
 {
     bool edge_edge = index >= c->point_triangle_count;
     int nodes[4];
-    double y[12], q[12];
+    cipc_stencil_path path = {.kind = cipc_mesh_pair(edge_edge)};
     cipc_stencil_nodes(model, edge_edge, candidate(c, index), nodes);
-    cipc_stencil_positions(x, nodes, y);
-    cipc_stencil_positions(p, nodes, q);
+    cipc_stencil_positions(x, nodes, path.x);
+    cipc_stencil_positions(p, nodes, path.p);
     double xi = cipc_model_pair_offset(model, nodes[0], nodes[2]);
-    if (swept_apart(y, q, edge_edge ? 2 : 1, options->gap_first ? 1 : t_max, xi)) return; /* the released code looks at the whole path */
-    cipc_ccd_result r = cipc_additive_ccd_until(cipc_mesh_pair(edge_edge), y, q, xi, t_max, best->t, options);
+    if (swept_apart(path.x, path.p, edge_edge ? 2 : 1, options->gap_first ? 1 : t_max, xi)) return; /* the released code looks at the whole path */
+    cipc_ccd_result r = contact_ccd_until(&path, xi, t_max, best->t, options);
     if (r.hit && (r.toi < best->t || best->index < 0)) {
         best->t = r.toi;
         best->index = index;

@@ -230,7 +230,7 @@ static void test_against_samples(void **state)
             check_against_samples(&path, i % 2 ? 0 : 0.5 * gsl_rng_uniform(rng), &hits);
         }
         print_message("%s: %d hits\n", cipc_pair_name((cipc_pair_kind)kind), hits);
-        assert_true(hits >= 40);
+        assert_true(hits >= (kind == CIPC_POINT_POINT ? 15 : 40)); /* two points seldom meet */
     }
     gsl_rng_free(rng);
 }

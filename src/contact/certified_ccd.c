@@ -1,0 +1,118 @@
+/* Certified additive continuous collision detection (SPEC V.4; docs/theory/certified_ccd.md): the algorithm of additive_ccd.c on certified lower bounds of the
+ * distance, with times rounded down. What it returns holds for the exact path of the given doubles. */
+#include "contact/certified_ccd.h"
+
+#include <math.h>
+
+#include "base/vector.h"
+#include "contact/separation_bound.h"
+
+/* A bound in doubles is taken as it is when it is at least this share of the gap as computed; below it, rounding has eaten too much, and MPFR is asked. */
+static const double GOOD_SHARE = 0.75;
+/* options.refine: go on until the gap is below this share of the target, for at most so many more steps. */
+static const double REFINED_SHARE = 0x1p-30;
+enum { REFINED_STEPS = 256 };
+
+/* A query under way: certified free of contact on [0, t] with a gap of at least `gap` at t. */
+typedef struct advance {
+    const cipc_stencil_path *path;
+    contact_local_path local;
+    double xi, t, gap;
+    double n[3]; /* separating direction at t; all 0: none in doubles */
+    int precision;
+} advance;
+
+/* a - b and a + b >= 0 rounded down. */
+static double sum_below(double a, double b)
+{
+    double s = a + b, part = s - a, error = (a - (s - part)) + (b - part); /* the sum's own rounding error, exactly (Knuth) */
+    return error < 0 ? nextafter(s, 0) : s;
+}
+
+/* gap / speed rounded down: two roundings. */
+static double time_below(double gap, double speed) { return gap / speed * (1 - 0x1p-51); }
+
+/* Certified gap at time t; in MPFR if doubles do not suffice to say whether it is at least `wanted`. */
+static contact_decision gap_at(advance *a, double t, double wanted, double *gap)
+{
+    contact_gap_bound bound = contact_gap_at(&a->local, a->xi, t);
+    v3_copy(a->n, bound.n);
+    *gap = bound.lower;
+    if (bound.lower > 0 && (bound.lower >= GOOD_SHARE * bound.estimate || (wanted > 0 && bound.lower >= wanted))) return CONTACT_CLEAR;
+    if (t == 0 && contact_surely_close(&a->local, a->xi)) return CONTACT_CLOSE;
+    v3_scale(a->n, 0, a->n);
+    return contact_gap_mpfr(a->path, a->xi, t, gap, &a->precision);
+}
+
+/* (10) Do the boxes of the two primitives, swept over [0, t_max] and grown by xi, stay apart? */
+static bool boxes_apart(const contact_local_path *local, double xi, double t_max)
+{
+    double slack = xi * (1 + 0x1p-50) + 0x1p-48 * local->size;
+    for (int k = 0; k < 3; k++) {
+        double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
+        for (int i = 0; i < local->nodes; i++) {
+            int side = i >= local->first;
+            double from = local->y[3 * i + k], to = from + t_max * local->q[3 * i + k];
+            lo[side] = min2(lo[side], min2(from, to));
+            hi[side] = max2(hi[side], max2(from, to));
+        }
+        if (lo[0] - hi[1] > slack || lo[1] - hi[0] > slack) return true;
+    }
+    return false;
+}
+
+/* (11) The direction that separates at t still separates at t_max by `wanted` or more: then it does so all the way, because the separation along a fixed
+ * direction is a concave function of time. */
+static bool separated_to_end(const advance *a, double t_max, double wanted)
+{
+    if (a->n[0] == 0 && a->n[1] == 0 && a->n[2] == 0) return false;
+    double gap = contact_gap_along(&a->local, a->n, a->xi, t_max);
+    return gap > 0 && gap >= wanted;
+}
+
+static cipc_ccd_result end(const advance *a, cipc_ccd_outcome outcome, double toi, int iterations)
+{
+    return (cipc_ccd_result){.toi = toi, .hit = outcome != CIPC_CCD_FREE, .iterations = iterations, .outcome = outcome, .precision = a->precision};
+}
+
+/* From a certified start on: (13)-(16) of docs/theory/certified_ccd.md. */
+static cipc_ccd_result march(advance *a, double t_max, double bound, const cipc_ccd_options *options)
+{
+    double target = options->slackness * a->gap, last = options->refine ? REFINED_SHARE * target : target;
+    double stop = -1; /* the last time with a gap of the target or more, once it has been passed */
+    int refined = 0;
+    for (int i = 1; i <= options->max_iterations; i++) {
+        double step = time_below((1 - options->slackness) * a->gap, a->local.speed), next = sum_below(a->t, step);
+        double whole = options->refine ? sum_below(a->t, time_below(a->gap, a->local.speed)) : next;
+        if (whole > t_max || separated_to_end(a, t_max, options->refine ? 0 : target)) return end(a, CIPC_CCD_FREE, t_max, i);
+        if (next > bound) return end(a, CIPC_CCD_FREE, t_max, i); /* another pair ends the step before */
+        if (next <= a->t) return end(a, a->t > 0 ? CIPC_CCD_HIT : CIPC_CCD_INDETERMINATE, stop > 0 ? stop : a->t, i);
+        double gap = 0, floor = options->slackness * a->gap * (1 - 0x1p-50); /* what the step leaves at least */
+        contact_decision decision = gap_at(a, next, last, &gap);
+        gap = decision == CONTACT_CLEAR ? max2(gap, floor) : floor;
+        if (a->t > 0 && gap < target && stop < 0) stop = a->t;
+        if (a->t > 0 && (gap < last || (stop > 0 && ++refined > REFINED_STEPS))) return end(a, CIPC_CCD_HIT, stop, i);
+        a->t = next;
+        a->gap = gap;
+    }
+    cipc_ccd_result result = end(a, CIPC_CCD_HIT, stop > 0 ? stop : a->t, options->max_iterations);
+    result.capped = true;
+    return result;
+}
+
+cipc_ccd_result contact_certified_ccd_until(const cipc_stencil_path *path, double xi, double t_max, double bound, const cipc_ccd_options *options)
+{
+    advance a = {.path = path, .xi = xi, .precision = 53};
+    if (!contact_local_path_init(&a.local, path) || !isfinite(xi)) return end(&a, CIPC_CCD_INDETERMINATE, 0, 0);
+    if (boxes_apart(&a.local, xi, t_max)) return end(&a, CIPC_CCD_FREE, t_max, 0);
+    contact_decision start = gap_at(&a, 0, 0, &a.gap);
+    if (start == CONTACT_CLOSE) return end(&a, CIPC_CCD_INITIALLY_CLOSE, 0, 0);
+    if (start == CONTACT_UNKNOWN || a.local.speed == INFINITY) return end(&a, CIPC_CCD_INDETERMINATE, 0, 0);
+    if (a.local.speed == 0) return end(&a, CIPC_CCD_FREE, t_max, 0);
+    return march(&a, t_max, bound, options);
+}
+
+cipc_ccd_result cipc_certified_ccd(const cipc_stencil_path *path, double thickness, double t_max, const cipc_ccd_options *options)
+{
+    return contact_certified_ccd_until(path, thickness, t_max, t_max, options);
+}
