@@ -85,7 +85,7 @@ static cipc_ccd_result march(advance *a, double t_max, double bound, const cipc_
         double step = time_below((1 - options->slackness) * a->gap, a->local.speed), next = sum_below(a->t, step);
         double whole = options->refine ? sum_below(a->t, time_below(a->gap, a->local.speed)) : next;
         if (whole > t_max || separated_to_end(a, t_max, options->refine ? 0 : target)) return end(a, CIPC_CCD_FREE, t_max, i);
-        if (next > bound) return end(a, CIPC_CCD_FREE, t_max, i); /* another pair ends the step before */
+        if (stop < 0 && (a->t > bound || (a->t == 0 && next > bound))) return end(a, CIPC_CCD_FREE, t_max, i); /* whatever is found comes too late */
         if (next <= a->t) return end(a, a->t > 0 ? CIPC_CCD_HIT : CIPC_CCD_INDETERMINATE, stop > 0 ? stop : a->t, i);
         double gap = 0, floor = options->slackness * a->gap * (1 - 0x1p-50); /* what the step leaves at least */
         contact_decision decision = gap_at(a, next, last, &gap);

@@ -65,9 +65,13 @@ static void read_contact(scene_reader *r, const scene_cursor *root, cipc_implici
                                        "friction_iterations",
                                        "friction_cap",
                                        "friction_velocity",
+                                       "ccd",
+                                       "ccd_refine",
                                        "slackness",
                                        "ccd_iterations",
                                        NULL};
+    static const char *const ccds[] = {"certified", "additive", "cubic", NULL}; /* in the order of cipc_ccd_method */
+    options->ccd.method = options->released ? CIPC_CCD_ADDITIVE : CIPC_CCD_CERTIFIED;
     scene_cursor contact = scene_object_member(r, root, "contact");
     if (!scene_is_object(r, &contact, keys)) return;
     bool area_weights = options->contact.area_weights && !options->released;
@@ -77,6 +81,8 @@ static void read_contact(scene_reader *r, const scene_cursor *root, cipc_implici
     options->friction_iterations = scene_integer(r, &contact, "friction_iterations", options->friction_iterations, 0, INT_MAX);
     options->friction_cap = scene_integer(r, &contact, "friction_cap", options->friction_cap, 1, INT_MAX);
     options->friction_velocity = scene_number(r, &contact, "friction_velocity", options->friction_velocity, scene_positive);
+    options->ccd.method = (cipc_ccd_method)scene_choice(r, &contact, "ccd", "method of continuous collision detection", ccds, (int)options->ccd.method);
+    options->ccd.refine = scene_boolean(r, &contact, "ccd_refine", options->ccd.refine);
     options->ccd.slackness = scene_number(r, &contact, "slackness", options->ccd.slackness, open_unit);
     options->ccd.max_iterations = scene_integer(r, &contact, "ccd_iterations", options->ccd.max_iterations, 1, INT_MAX);
 }
