@@ -5,7 +5,6 @@
 #define CIPC_ORACLE_H
 
 #include <stdbool.h>
-#include <mpfr.h>
 #include "cipc/base.h"
 
 /* The answer to an exact question. INDETERMINATE: a precision cap was met, or the input was not finite; never a guess. */
@@ -32,6 +31,8 @@ double cipc_exact_distance_gap(cipc_pair_kind kind, const double *x, double xi);
 /* Have the two closed sets a point in common? Touching counts; degenerate ones are the sets they are. */
 cipc_verdict cipc_exact_edge_triangle(const double edge[6], const double triangle[9]);
 cipc_verdict cipc_exact_triangle_triangle(const double a[9], const double b[9]);
+/* Sign of det[b - a, c - a, d - a]. Non-finite input: 0. */
+int cipc_exact_orientation(const double a[3], const double b[3], const double c[3], const double d[3]);
 
 /* --- time of impact (SPEC V.3) ------------------------------------------------------------------------------------------------------------- */
 
@@ -67,15 +68,14 @@ typedef struct cipc_oracle_function {
     int nodes;
     int field_count;
     const char *const *fields;
-    /* r := value at x[3 * nodes], at the precision of r and at least that of the operands; +inf where the function is infeasible. */
-    void (*value)(mpfr_t r, const mpfr_t *x, const double *fields);
 } cipc_oracle_function;
 int cipc_oracle_function_count(void);
 const cipc_oracle_function *cipc_oracle_function_at(int index);
 const cipc_oracle_function *cipc_oracle_function_find(const char *name); /* or NULL */
 
 /* Value, gradient g[n] and Hessian H[n * n], n = 3 * nodes, each rounded from about 60 digits (central differences at 512 bits, step 2^-100 of the
- * stencil's size); g and H may be NULL. INDETERMINATE: infeasible there, not finite, or the two precisions disagree. */
+ * stencil's size); g and H may be NULL. INDETERMINATE: infeasible there or at a distance of the step from it, not
+ * finite, or a value that at twice the precision rounds to another double. YES otherwise. */
 cipc_verdict cipc_oracle_evaluate(const cipc_oracle_function *function, const double *x, const double *fields, double *value, double *g, double *H);
 
 #endif

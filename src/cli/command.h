@@ -9,6 +9,7 @@
 /* Each runs a subcommand; argv[0] is its name. Returns the program's exit status. */
 int cipc_command_run(int argc, char **argv);    /* cli/run.c */
 int cipc_command_scenes(int argc, char **argv); /* cli/scenes.c */
+int cipc_command_verify(int argc, char **argv); /* cli/verify.c */
 
 /* One line on stderr, "cipc: where: CIPC-number: what: how to mend it"; returns the exit status that goes with the error. */
 int cipc_say(const cipc_error *error);

@@ -14,6 +14,7 @@ typedef struct command {
 static const command commands[] = {
     {"run", "simulate a scene and write what happened to a folder", cipc_command_run},
     {"scenes", "list the catalogue of scenes", cipc_command_scenes},
+    {"verify", "hold the solver's functions against exact arithmetic", cipc_command_verify},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 

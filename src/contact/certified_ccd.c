@@ -8,10 +8,12 @@
 #include "contact/separation_bound.h"
 
 /* A bound in doubles is taken as it is when it is at least this share of the gap as computed; below it, rounding has eaten too much, and MPFR is asked. */
-static const double GOOD_SHARE = 0.75;
+static const double GOOD_SHARE = 1 - 0x1p-10;
 /* options.refine: go on until the gap is below this share of the target, for at most so many more steps. */
 static const double REFINED_SHARE = 0x1p-30;
 enum { REFINED_STEPS = 256 };
+/* A step along a fixed direction aims at a little more than the gap at which the march ends, so that rounding does not end it there. */
+static const double ALONG_SHARE = 1 + 0x1p-10;
 
 /* A query under way: certified free of contact on [0, t] with a gap of at least `gap` at t. */
 typedef struct advance {
@@ -61,13 +63,15 @@ static bool boxes_apart(const contact_local_path *local, double xi, double t_max
     return false;
 }
 
-/* (11) The direction that separates at t still separates at t_max by `wanted` or more: then it does so all the way, because the separation along a fixed
- * direction is a concave function of time. */
-static bool separated_to_end(const advance *a, double t_max, double wanted)
+/* (11) A direction that separates at t and at a later time by more than xi does so all the time between, because the separation along a fixed direction is a
+ * concave function of time. The last time, up to t_max, at which the present direction still leaves a gap of `wanted`; *gap is certified there. 0: none. */
+static double separated_until(const advance *a, double t_max, double wanted, double *gap)
 {
-    if (a->n[0] == 0 && a->n[1] == 0 && a->n[2] == 0) return false;
-    double gap = contact_gap_along(&a->local, a->n, a->xi, t_max);
-    return gap > 0 && gap >= wanted;
+    if (a->n[0] == 0 && a->n[1] == 0 && a->n[2] == 0) return 0;
+    double until = min2(t_max, contact_time_along(&a->local, a->n, a->xi, a->t, wanted));
+    if (!(until > a->t)) return 0;
+    *gap = contact_gap_along(&a->local, a->n, a->xi, until);
+    return *gap > 0 && *gap >= 0.5 * wanted ? until : 0;
 }
 
 static cipc_ccd_result end(const advance *a, cipc_ccd_outcome outcome, double toi, int iterations)
@@ -75,19 +79,25 @@ static cipc_ccd_result end(const advance *a, cipc_ccd_outcome outcome, double to
     return (cipc_ccd_result){.toi = toi, .hit = outcome != CIPC_CCD_FREE, .iterations = iterations, .outcome = outcome, .precision = a->precision};
 }
 
-/* From a certified start on: (13)-(16) of docs/theory/certified_ccd.md. */
+/* From a certified start on: (12)-(15) of docs/theory/certified_ccd.md. */
 static cipc_ccd_result march(advance *a, double t_max, double bound, const cipc_ccd_options *options)
 {
     double target = options->slackness * a->gap, last = options->refine ? REFINED_SHARE * target : target;
     double stop = -1; /* the last time with a gap of the target or more, once it has been passed */
     int refined = 0;
     for (int i = 1; i <= options->max_iterations; i++) {
-        double step = time_below((1 - options->slackness) * a->gap, a->local.speed), next = sum_below(a->t, step);
+        double next = sum_below(a->t, time_below((1 - options->slackness) * a->gap, a->local.speed)), along = 0;
+        double floor = options->slackness * a->gap * (1 - 0x1p-50); /* what the step leaves at least */
         double whole = options->refine ? sum_below(a->t, time_below(a->gap, a->local.speed)) : next;
-        if (whole > t_max || separated_to_end(a, t_max, options->refine ? 0 : target)) return end(a, CIPC_CCD_FREE, t_max, i);
+        double until = separated_until(a, t_max, ALONG_SHARE * last, &along);
+        if (whole > t_max || until == t_max) return end(a, CIPC_CCD_FREE, t_max, i);
+        if (until > next) {
+            next = until;
+            floor = along;
+        }
         if (stop < 0 && (a->t > bound || (a->t == 0 && next > bound))) return end(a, CIPC_CCD_FREE, t_max, i); /* whatever is found comes too late */
         if (next <= a->t) return end(a, a->t > 0 ? CIPC_CCD_HIT : CIPC_CCD_INDETERMINATE, stop > 0 ? stop : a->t, i);
-        double gap = 0, floor = options->slackness * a->gap * (1 - 0x1p-50); /* what the step leaves at least */
+        double gap = 0;
         contact_decision decision = gap_at(a, next, last, &gap);
         gap = decision == CONTACT_CLEAR ? max2(gap, floor) : floor;
         if (a->t > 0 && gap < target && stop < 0) stop = a->t;

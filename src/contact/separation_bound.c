@@ -89,6 +89,23 @@ double contact_gap_along(const contact_local_path *local, const double n[3], dou
     return gap_below(distance_along(local, z, n, v3_norm(n)), xi);
 }
 
+/* The separation along n is the least of n.(a_i - b_j) over pairs of nodes, each linear in time. */
+double contact_time_along(const contact_local_path *local, const double n[3], double xi, double t, double wanted)
+{
+    double height[4], rate[4], level = v3_norm(n) * (xi + wanted), last = INFINITY;
+    for (int i = 0; i < local->nodes; i++) {
+        rate[i] = v3_dot(n, local->q + 3 * i);
+        height[i] = v3_dot(n, local->y + 3 * i) + t * rate[i];
+    }
+    for (int i = 0; i < local->first; i++) {
+        for (int j = local->first; j < local->nodes; j++) {
+            double fall = rate[j] - rate[i];
+            if (fall > 0) last = min2(last, t + (height[i] - height[j] - level) / fall);
+        }
+    }
+    return last;
+}
+
 /* n := e x (u x e), the part of u across e times |e|^2: perpendicular to e to a few ulp of itself, however small it is against u (SPEC V.4 item 2). */
 static void perpendicular(double n[3], const double u[3], const double e[3])
 {

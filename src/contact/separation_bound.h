@@ -27,6 +27,9 @@ contact_gap_bound contact_gap_at(const contact_local_path *local, double xi, dou
 /* Bound along a given direction at time t. */
 double contact_gap_along(const contact_local_path *local, const double n[3], double xi, double t);
 
+/* About the last time after t at which the gap along n is still `wanted`: not certified. INFINITY: it never falls below. */
+double contact_time_along(const contact_local_path *local, const double n[3], double xi, double t, double wanted);
+
 /* Is it certain that d <= xi at t = 0? False may mean either. */
 bool contact_surely_close(const contact_local_path *local, double xi);
 

@@ -206,7 +206,7 @@ static void offer(workspace *w, const cipc_feature *feature, double xi)
     w->any = true;
 }
 
-/* One precision. The bound is accepted when it is positive and rounding - 2^8 units of the stencil's size, far more than any of the steps - is small against
+/* One precision. The bound is accepted when it is positive and rounding - 2^8 units of the stencil's size, far more than any of the steps - is less than 2^-10 of
  * it; or when everything was exact, but for the last quotient. */
 static contact_decision decide(workspace *w, const cipc_stencil_path *path, double xi, double t, double *lower)
 {
@@ -220,7 +220,7 @@ static contact_decision decide(workspace *w, const cipc_stencil_path *path, doub
     if (w->exact && !w->clear) return CONTACT_CLOSE;
     if (!w->any || mpfr_sgn(w->best) <= 0) return CONTACT_UNKNOWN;
     mpfr_ptr slack = w->temporary[0];
-    mpfr_mul_2si(slack, w->size, 8 - (long)w->precision, MPFR_RNDU);
+    mpfr_mul_2si(slack, w->size, 18 - (long)w->precision, MPFR_RNDU);
     if (mpfr_cmp(slack, w->best) > 0) return CONTACT_UNKNOWN;
     *lower = mpfr_get_d(w->best, MPFR_RNDD);
     return *lower > 0 ? CONTACT_CLEAR : CONTACT_UNKNOWN;

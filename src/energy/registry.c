@@ -1,5 +1,6 @@
 /* The table of all energies. The functions are reached through thunks with the table's own types, so that none is ever called through a
  * pointer of another type. */
+#include "energy/fields.h"
 #include "energy/samplers.h"
 
 #include <string.h>
@@ -32,40 +33,41 @@ THUNKS(barrier_edge_edge, cipc_contact_barrier)
 THUNKS(friction, cipc_friction)
 
 /* An entry; sampler and branch names may be shared by several energies. */
-#define ENTRY(energy, params_type, node_count, invariance, sampler, branch_total, names)                                                   \
+#define ENTRY(energy, params_type, node_count, invariance, sampler, branch_total, names, field_total, field_list)                          \
     {                                                                                                                                      \
         .name = #energy, .nodes = (node_count), .params_size = sizeof(params_type), .value = energy##_value,                               \
         .gradient = energy##_gradient, .hessian = energy##_hessian, .invariances = (invariance), .branch_count = (branch_total),           \
-        .branch_names = (names), .sample = energy_sample_##sampler, .branch = energy_branch_##sampler,                                     \
+        .branch_names = (names), .sample = energy_sample_##sampler, .branch = energy_branch_##sampler, .field_count = (field_total),       \
+        .fields = (field_list),                                                                                                            \
     }
 
 enum { NONE = 0, TRANSLATION = CIPC_INVARIANT_TRANSLATION, RIGID = CIPC_INVARIANT_TRANSLATION | CIPC_INVARIANT_ROTATION };
 
 static const cipc_energy table[CIPC_ENERGY_COUNT] = {
-    [CIPC_ENERGY_INERTIA] = ENTRY(inertia, cipc_inertia, 1, NONE, inertia, ENERGY_NODAL_BRANCHES, energy_nodal_branch_names),
-    [CIPC_ENERGY_GRAVITY] = ENTRY(gravity, cipc_gravity, 1, NONE, gravity, ENERGY_GRAVITY_BRANCHES, energy_gravity_branch_names),
+    [CIPC_ENERGY_INERTIA] = ENTRY(inertia, cipc_inertia, 1, NONE, inertia, ENERGY_NODAL_BRANCHES, energy_nodal_branch_names, 2, energy_fields_inertia),
+    [CIPC_ENERGY_GRAVITY] = ENTRY(gravity, cipc_gravity, 1, NONE, gravity, ENERGY_GRAVITY_BRANCHES, energy_gravity_branch_names, 2, energy_fields_gravity),
     [CIPC_ENERGY_DIRICHLET_PENALTY] =
-        ENTRY(dirichlet_penalty, cipc_dirichlet_penalty, 1, NONE, dirichlet_penalty, ENERGY_NODAL_BRANCHES, energy_nodal_branch_names),
+        ENTRY(dirichlet_penalty, cipc_dirichlet_penalty, 1, NONE, dirichlet_penalty, ENERGY_NODAL_BRANCHES, energy_nodal_branch_names, 3, energy_fields_dirichlet_penalty),
     [CIPC_ENERGY_MEMBRANE_NEO_HOOKEAN] =
-        ENTRY(membrane_neo_hookean, cipc_membrane, 3, RIGID, membrane, ENERGY_MEMBRANE_BRANCHES, energy_membrane_branch_names),
+        ENTRY(membrane_neo_hookean, cipc_membrane, 3, RIGID, membrane, ENERGY_MEMBRANE_BRANCHES, energy_membrane_branch_names, 5, energy_fields_membrane),
     [CIPC_ENERGY_MEMBRANE_STVK] =
-        ENTRY(membrane_stvk, cipc_membrane, 3, RIGID, membrane, ENERGY_MEMBRANE_BRANCHES, energy_membrane_branch_names),
+        ENTRY(membrane_stvk, cipc_membrane, 3, RIGID, membrane, ENERGY_MEMBRANE_BRANCHES, energy_membrane_branch_names, 5, energy_fields_membrane),
     [CIPC_ENERGY_STRAIN_LIMIT] =
-        ENTRY(strain_limit, cipc_strain_limit, 3, RIGID, strain_limit, ENERGY_STRAIN_LIMIT_BRANCHES, energy_strain_limit_branch_names),
+        ENTRY(strain_limit, cipc_strain_limit, 3, RIGID, strain_limit, ENERGY_STRAIN_LIMIT_BRANCHES, energy_strain_limit_branch_names, 5, energy_fields_strain_limit),
     [CIPC_ENERGY_HINGE_BENDING] =
-        ENTRY(hinge_bending, cipc_hinge_bending, 4, RIGID, hinge_bending, ENERGY_HINGE_BRANCHES, energy_hinge_branch_names),
+        ENTRY(hinge_bending, cipc_hinge_bending, 4, RIGID, hinge_bending, ENERGY_HINGE_BRANCHES, energy_hinge_branch_names, 2, energy_fields_hinge_bending),
     [CIPC_ENERGY_BARRIER_POINT_POINT] = ENTRY(barrier_point_point, cipc_contact_barrier, 2, RIGID, barrier_point_point,
-                                              ENERGY_CONTACT_BRANCHES, energy_contact_branch_names),
+                                              ENERGY_CONTACT_BRANCHES, energy_contact_branch_names, ENERGY_BARRIER_PLAIN_FIELDS, energy_fields_barrier),
     [CIPC_ENERGY_BARRIER_POINT_EDGE] = ENTRY(barrier_point_edge, cipc_contact_barrier, 3, RIGID, barrier_point_edge,
-                                             ENERGY_POINT_EDGE_BRANCHES, energy_point_edge_branch_names),
+                                             ENERGY_POINT_EDGE_BRANCHES, energy_point_edge_branch_names, ENERGY_BARRIER_PLAIN_FIELDS, energy_fields_barrier),
     [CIPC_ENERGY_BARRIER_POINT_TRIANGLE] = ENTRY(barrier_point_triangle, cipc_contact_barrier, 4, RIGID, barrier_point_triangle,
-                                                 ENERGY_POINT_TRIANGLE_BRANCHES, energy_point_triangle_branch_names),
+                                                 ENERGY_POINT_TRIANGLE_BRANCHES, energy_point_triangle_branch_names, ENERGY_BARRIER_PLAIN_FIELDS, energy_fields_barrier),
     [CIPC_ENERGY_BARRIER_EDGE_EDGE] = ENTRY(barrier_edge_edge, cipc_contact_barrier, 4, RIGID, barrier_edge_edge, ENERGY_EDGE_EDGE_BRANCHES,
-                                            energy_edge_edge_branch_names),
+                                            energy_edge_edge_branch_names, ENERGY_BARRIER_FIELDS, energy_fields_barrier),
     /* The weights of a contact sum to zero, so a common translation of x alone leaves the sliding as it is; a rotation does not, because
      * start and basis are lagged. */
     [CIPC_ENERGY_FRICTION] =
-        ENTRY(friction, cipc_friction, 4, TRANSLATION, friction, ENERGY_FRICTION_BRANCHES, energy_friction_branch_names),
+        ENTRY(friction, cipc_friction, 4, TRANSLATION, friction, ENERGY_FRICTION_BRANCHES, energy_friction_branch_names, 5, energy_fields_friction),
 };
 
 const cipc_energy *cipc_energy_entry(cipc_energy_id id)

@@ -90,3 +90,16 @@ cipc_verdict cipc_exact_triangle_triangle(const double a[9], const double b[9])
     meeting_clear(&m);
     return meet ? CIPC_YES : CIPC_NO;
 }
+
+int cipc_exact_orientation(const double a[3], const double b[3], const double c[3], const double d[3])
+{
+    double points[12];
+    const double *const corner[4] = {a, b, c, d};
+    for (int i = 0; i < 12; i++) points[i] = corner[i / 3][i % 3];
+    if (!cipc_all_finite(points, 12)) return 0;
+    meeting m;
+    meeting_init(&m, points, 2, points + 6, 2);
+    int sign = volume_sign(&m, 0, 1, 2, 3);
+    meeting_clear(&m);
+    return sign;
+}

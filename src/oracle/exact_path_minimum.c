@@ -5,6 +5,7 @@
 #include "cipc/oracle.h"
 
 #include <math.h>
+#include <mpfr.h>
 
 #include "oracle/path.h"
 

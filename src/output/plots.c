@@ -1,7 +1,7 @@
 /* Four panels over simulated time, from stats.jsonl. */
 #include "cipc/output.h"
 #include "output/axes.h"
-#include "output/json_number.h"
+#include "base/json_number.h"
 #include "output/png.h"
 
 #include <errno.h>

@@ -1,7 +1,7 @@
 /* stats.jsonl: one JSON line per time step, and the way back from it. */
 #include "cipc/output.h"
 #include "output/atomic_file.h"
-#include "output/json_number.h"
+#include "base/json_number.h"
 
 #include <errno.h>
 #include <math.h>

@@ -1,6 +1,6 @@
 /* Versions of everything that has a say in a result. */
 #include "output/versions.h"
-#include "output/json_number.h"
+#include "base/json_number.h"
 
 #include <cairo.h>
 #include <cholmod.h>

@@ -1,7 +1,7 @@
 /* violation.json: what a monitor found, for whoever has to find out why. */
 #include "cipc/output.h"
 #include "output/atomic_file.h"
-#include "output/json_number.h"
+#include "base/json_number.h"
 
 static json_t *text_or_null(const char *text)
 {

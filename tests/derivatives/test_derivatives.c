@@ -11,7 +11,7 @@
 
 #include "base/vector.h"
 #include "cipc/energy.h"
-#include "support/derivative_check.h"
+#include "verify/derivative_check.h"
 
 /* Forty configurations aimed at each branch; a rounding may put one on the neighbouring branch, but no branch may lose half of them. */
 enum { SAMPLES = 40, MINIMUM = 20 };
@@ -21,8 +21,8 @@ static const unsigned long SEED = 20201117;
 
 static void assert_rejected(const cipc_energy *wrong, const char *reason)
 {
-    derivative_report report;
-    assert_false(derivative_check_energy(wrong, SEED, SAMPLES, MINIMUM, &report));
+    verify_derivative_report report;
+    assert_false(verify_derivatives_of(wrong, SEED, SAMPLES, MINIMUM, &report));
     if (strstr(report.failure, reason) == NULL) fail_msg("rejected for another reason: %s", report.failure);
 }
 
@@ -208,8 +208,8 @@ static void test_missed_branch_is_rejected(void **state)
 
 static void check_one(const cipc_energy *energy)
 {
-    derivative_report report;
-    bool good = derivative_check_energy(energy, SEED, SAMPLES, MINIMUM, &report);
+    verify_derivative_report report;
+    bool good = verify_derivatives_of(energy, SEED, SAMPLES, MINIMUM, &report);
     print_message("%-24s gradient %.1e (tolerance up to %.1e), Hessian %.1e (up to %.1e), %ld samples\n", energy->name,
                   report.gradient_error, report.gradient_tolerance, report.hessian_error, report.hessian_tolerance, report.samples);
     if (!good) fail_msg("%s (seed %lu)", report.failure, SEED);

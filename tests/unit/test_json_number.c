@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "output/json_number.h"
+#include "base/json_number.h"
 
 static double there_and_back(double value)
 {

@@ -1,5 +1,5 @@
 /* Doubles in JSON. */
-#include "output/json_number.h"
+#include "base/json_number.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,6 +1,6 @@
 /* Doubles in JSON: 17 significant digits, and the three values that JSON has no number for as strings. */
-#ifndef OUTPUT_JSON_NUMBER_H
-#define OUTPUT_JSON_NUMBER_H
+#ifndef BASE_JSON_NUMBER_H
+#define BASE_JSON_NUMBER_H
 
 #include <jansson.h>
 #include <stdbool.h>

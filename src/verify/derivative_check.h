@@ -1,26 +1,26 @@
 /* The checker of gradients, Hessians and invariances of one energy, shared by the derivative tests and by the self-test that feeds it wrong
  * energies. Method: docs/theory/energies.md, "How the derivatives are checked". */
-#ifndef CIPC_TESTS_DERIVATIVE_CHECK_H
-#define CIPC_TESTS_DERIVATIVE_CHECK_H
+#ifndef CIPC_VERIFY_DERIVATIVE_CHECK_H
+#define CIPC_VERIFY_DERIVATIVE_CHECK_H
 
 #include <stdbool.h>
 #include "cipc/energy.h"
 
-enum { DERIVATIVE_MAX_BRANCHES = 32 };
+enum { VERIFY_DERIVATIVE_BRANCHES = 32 };
 
-typedef struct derivative_report {
+typedef struct verify_derivative_report {
     long samples;
-    int branch_counts[DERIVATIVE_MAX_BRANCHES];
+    int branch_counts[VERIFY_DERIVATIVE_BRANCHES];
     /* Largest errors and tolerances seen, relative to the largest entry: error and tolerance belong to different samples. */
     double gradient_error, gradient_tolerance, hessian_error, hessian_tolerance;
     char failure[512]; /* the first failure; empty if there is none */
-} derivative_report;
+} verify_derivative_report;
 
 /* Every component of gradient and Hessian at one configuration against central differences; symmetry; the invariances of the entry.
  * Returns whether all hold; otherwise report->failure says what does not. */
-bool derivative_check_point(const cipc_energy *energy, const double *x, const void *params, derivative_report *report);
+bool verify_derivatives_at(const cipc_energy *energy, const double *x, const void *params, verify_derivative_report *report);
 
 /* The same at `samples` configurations aimed at each branch, and every branch must be reached at least `minimum` times. */
-bool derivative_check_energy(const cipc_energy *energy, unsigned long seed, int samples, int minimum, derivative_report *report);
+bool verify_derivatives_of(const cipc_energy *energy, unsigned long seed, int samples, int minimum, verify_derivative_report *report);
 
 #endif

@@ -1,5 +1,5 @@
 /* Central differences with a step ladder, and invariances. See derivative_check.h. */
-#include "support/derivative_check.h"
+#include "verify/derivative_check.h"
 
 #include <float.h>
 #include <math.h>
@@ -49,7 +49,7 @@ typedef struct subject {
     const cipc_energy *energy;
     const double *x;
     const void *params;
-    derivative_report *report;
+    verify_derivative_report *report;
     int n;
     double g[MAX_N], H[MAX_N * MAX_N];
     double g_max, H_max, x_max, extent; /* largest entries; size of the stencil */
@@ -278,7 +278,7 @@ static bool check_rotation(const subject *s)
     return true;
 }
 
-bool derivative_check_point(const cipc_energy *energy, const double *x, const void *params, derivative_report *report)
+bool verify_derivatives_at(const cipc_energy *energy, const double *x, const void *params, verify_derivative_report *report)
 {
     subject s = {.energy = energy, .x = x, .params = params, .report = report, .n = 3 * energy->nodes};
     double low[3] = {x[0], x[1], x[2]}, high[3] = {x[0], x[1], x[2]};
@@ -303,7 +303,7 @@ bool derivative_check_point(const cipc_energy *energy, const double *x, const vo
     return good;
 }
 
-static bool check_samples(const cipc_energy *energy, gsl_rng *rng, int samples, derivative_report *report)
+static bool check_samples(const cipc_energy *energy, gsl_rng *rng, int samples, verify_derivative_report *report)
 {
     union {
         double align;
@@ -320,17 +320,17 @@ static bool check_samples(const cipc_energy *energy, gsl_rng *rng, int samples, 
                 return false;
             }
             report->branch_counts[reached]++;
-            if (!derivative_check_point(energy, x, &params, report)) return false;
+            if (!verify_derivatives_at(energy, x, &params, report)) return false;
         }
     }
     return true;
 }
 
-bool derivative_check_energy(const cipc_energy *energy, unsigned long seed, int samples, int minimum, derivative_report *report)
+bool verify_derivatives_of(const cipc_energy *energy, unsigned long seed, int samples, int minimum, verify_derivative_report *report)
 {
     memset(report, 0, sizeof *report);
     gsl_rng *rng =
-        energy->branch_count <= DERIVATIVE_MAX_BRANCHES && energy->params_size <= MAX_PARAMS ? gsl_rng_alloc(gsl_rng_mt19937) : NULL;
+        energy->branch_count <= VERIFY_DERIVATIVE_BRANCHES && energy->params_size <= MAX_PARAMS ? gsl_rng_alloc(gsl_rng_mt19937) : NULL;
     if (rng == NULL) {
         (void)snprintf(report->failure, sizeof report->failure, "%s: no random numbers, or too many branches or parameters", energy->name);
         return false;
