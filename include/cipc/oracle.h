@@ -78,4 +78,8 @@ const cipc_oracle_function *cipc_oracle_function_find(const char *name); /* or N
  * finite, or a value that at twice the precision rounds to another double. YES otherwise. */
 cipc_verdict cipc_oracle_evaluate(const cipc_oracle_function *function, const double *x, const double *fields, double *value, double *g, double *H);
 
+/* Value and first two derivatives of "barrier" (of D; fields Dhat), "strain_limit_barrier" (of sigma; s, shat), "friction_mollifier" (of y; e), each rounded
+ * from about 60 digits. INDETERMINATE: infeasible, not finite, no such function. */
+cipc_verdict cipc_oracle_scalar(const char *name, double x, const double *fields, double f[3]);
+
 #endif

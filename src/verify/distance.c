@@ -1,19 +1,13 @@
 /* Campaign "distance": squared distances, closest features and derivatives against the exact oracle (SPEC V.2, V.6; docs/theory/tolerances.md). */
 #include "verify/distance.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "cipc/oracle.h"
+#include "verify/condition.h"
 #include "verify/query.h"
 #include "verify/stencils.h"
 
-static const double UNIT = 0.5 * DBL_EPSILON;
-/* (4) an error of d in units of 2 u S, S the stencil's size. */
-static const double DISTANCE_ULPS = 4;
-/* (5), (6): as distance.md section 5 derives them, with the sine of the angle and the weights of the case. */
-static const double DERIVATIVE_ROUNDINGS = 64;
 enum { DERIVATIVE_EVERY = 16 }; /* of the samples have their derivatives checked too: MPFR differences cost a hundred times an exact distance */
 
 static cipc_feature solver_feature(cipc_pair_kind kind, const double *x)
@@ -96,7 +90,7 @@ static const char *const draw_names[] = {"random", "angles 1e-16..1", "next to e
 enum { DRAW_COUNT = sizeof draws / sizeof draws[0] };
 
 /* Rows: every kind in every class. */
-enum { OUTSIDE = CIPC_FEATURE_LIMIT, NOT_FINITE, DERIVATIVES };
+enum { OUTSIDE = CIPC_FEATURE_LIMIT, NOT_FINITE, DERIVATIVES, ILL_POSED };
 
 static void describe(int index, verify_row *row)
 {
@@ -112,7 +106,8 @@ static void describe(int index, verify_row *row)
     verify_row_counter(row, "feature of a tie or next to one");
     verify_row_forbid(row, "not finite");
     verify_row_counter(row, "derivatives checked");
-    verify_row_maximum(row, "d, ULP of the stencil's size", DISTANCE_ULPS);
+    verify_row_counter(row, "Hessian not determined by doubles");
+    verify_row_maximum(row, "d, ULP of the stencil's size", VERIFY_DISTANCE_ULPS);
     verify_row_maximum(row, "gradient, error over tolerance", 1);
     verify_row_maximum(row, "Hessian, error over tolerance", 1);
 }
@@ -122,40 +117,28 @@ static void gather(const cipc_feature *feature, const double *x, double *y)
     for (int i = 0; i < feature->count; i++) memcpy(y + 3 * i, x + 3 * feature->local[i], 3 * sizeof *y);
 }
 
-static double largest(const double *v, int n)
-{
-    double most = 0;
-    for (int i = 0; i < n; i++) most = fmax(most, fabs(v[i]));
-    return most;
-}
-
-static double largest_error(const double *got, const double *want, int n)
-{
-    double most = 0;
-    for (int i = 0; i < n; i++) most = isfinite(got[i]) ? fmax(most, fabs(got[i] - want[i])) : INFINITY;
-    return most;
-}
-
 /* Derivatives of the feature's smooth distance. Tolerances (5), (6): how fast the oracle's own gradient and Hessian change with the nodes. */
-static void check_derivatives(const cipc_feature *feature, const double *y, const verify_distance_subject *subject, long sample, verify_row *row,
-                              const cipc_query *query)
+static void check_derivatives(const cipc_feature *feature, const double *y, const verify_distance_subject *subject, unsigned long random, long sample,
+                              verify_row *row, const cipc_query *query)
 {
     static const char *const names[CIPC_PAIR_KIND_COUNT] = {"distance2_point_point", "distance2_point_line", "distance2_point_plane", "distance2_line_line"};
     const cipc_oracle_function *f = cipc_oracle_function_find(names[feature->kind]);
-    double g[12], H[144], want_g[12], want_H[144], moved[12], moved_H[144], size = 0, change = 0;
+    double g[12], H[144], want_g[12], want_H[144], size = 0;
     int n = 3 * feature->count;
     for (int i = 0; i < n; i++) size = fmax(size, fabs(y[i] - y[i % 3]));
     if (cipc_oracle_evaluate(f, y, NULL, NULL, want_g, want_H) != CIPC_YES) return;
-    static const double SHIFT = 0x1p-26;
-    for (int i = 0; i < n; i++) moved[i] = y[i] + ((i * 7 + sample) % 2 ? SHIFT : -SHIFT) * size;
-    if (cipc_oracle_evaluate(f, moved, NULL, NULL, NULL, moved_H) == CIPC_YES) change = largest_error(moved_H, want_H, n * n) / SHIFT;
+    double change = verify_hessian_change(f, y, NULL, want_g, want_H, size, random);
+    if (change == INFINITY) { /* rounding the nodes changes everything: no answer in doubles could be right */
+        verify_count(row, ILL_POSED, sample, NULL);
+        return;
+    }
     subject->gradient(feature->kind, y, g);
     subject->hessian(feature->kind, y, H);
-    double g_tolerance = DERIVATIVE_ROUNDINGS * UNIT * (largest(want_g, n) + largest(want_H, n * n) * size);
-    double H_tolerance = DERIVATIVE_ROUNDINGS * UNIT * (largest(want_H, n * n) + change);
+    double g_tolerance = VERIFY_ROUNDINGS * VERIFY_UNIT * (verify_largest(want_g, n) + verify_largest(want_H, n * n) * size);
+    double H_tolerance = VERIFY_ROUNDINGS * VERIFY_UNIT * (verify_largest(want_H, n * n) + change);
     verify_count(row, DERIVATIVES, sample, NULL);
-    verify_measure(row, 1, largest_error(g, want_g, n) / g_tolerance, sample, query);
-    verify_measure(row, 2, largest_error(H, want_H, n * n) / H_tolerance, sample, query);
+    verify_measure(row, 1, verify_over(verify_largest_error(g, want_g, n), g_tolerance), sample, query);
+    verify_measure(row, 2, verify_over(verify_largest_error(H, want_H, n * n), H_tolerance), sample, query);
 }
 
 static void sample(int index, gsl_rng *rng, long number, verify_row *row, const void *context)
@@ -182,8 +165,8 @@ static void sample(int index, gsl_rng *rng, long number, verify_row *row, const 
     verify_count(row, named, number, NULL);
     if (!(features >> named & 1)) verify_count(row, OUTSIDE, number, NULL);
     double error = fabs(sqrt(d2) - d);
-    verify_measure(row, 0, error == 0 ? 0 : error / (2 * UNIT * size), number, &query);
-    if (number % DERIVATIVE_EVERY == 0) check_derivatives(&feature, y, subject, number, row, &query);
+    verify_measure(row, 0, error == 0 ? 0 : error / (2 * VERIFY_UNIT * size), number, &query);
+    if (number % DERIVATIVE_EVERY == 0) check_derivatives(&feature, y, subject, gsl_rng_uniform_int(rng, 1UL << 24), number, row, &query);
 }
 
 const verify_campaign verify_distance = {"distance", CIPC_PAIR_KIND_COUNT * DRAW_COUNT, describe, sample, &verify_distance_of_the_solver, 0.1};

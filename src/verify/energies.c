@@ -1,45 +1,24 @@
 /* Campaign "energies": value, gradient and Hessian of every energy of the registry against MPFR (SPEC V.6; docs/theory/tolerances.md). */
 #include "verify/energies.h"
 
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
-#include "cipc/oracle.h"
+#include "verify/condition.h"
 
 enum { N = VERIFY_COORDINATES };
-static const double UNIT = 0.5 * DBL_EPSILON;
-
-/* Tolerances are these many roundings of the case's own condition (docs/theory/tolerances.md (1)-(3)). */
-static const double VALUE_ROUNDINGS = 64, GRADIENT_ROUNDINGS = 128, HESSIAN_ROUNDINGS = 256;
-/* Size of the shift, relative to the stencil, that measures how fast the Hessian changes. */
-static const double SHIFT = 0x1p-26;
-
 static void describe(int index, verify_row *row)
 {
     verify_describe_branches(row, cipc_energy_entry((cipc_energy_id)index));
     verify_row_forbid(row, "not finite where MPFR is");
     verify_row_forbid(row, "undecided by the oracle");
+    verify_row_counter(row, "Hessian not determined by doubles");
     verify_row_maximum(row, "value, error over tolerance", 1);
     verify_row_maximum(row, "gradient, error over tolerance", 1);
     verify_row_maximum(row, "Hessian, error over tolerance", 1);
     verify_row_maximum(row, "value, ULP", INFINITY);
     verify_row_maximum(row, "gradient, ULP of its largest entry", INFINITY);
     verify_row_maximum(row, "Hessian, ULP of its largest entry", INFINITY);
-}
-
-static double largest(const double *v, int n)
-{
-    double most = 0;
-    for (int i = 0; i < n; i++) most = fmax(most, fabs(v[i]));
-    return most;
-}
-
-static double largest_error(const double *got, const double *want, int n)
-{
-    double most = 0;
-    for (int i = 0; i < n; i++) most = isfinite(got[i]) ? fmax(most, fabs(got[i] - want[i])) : INFINITY;
-    return most;
 }
 
 /* Value and derivatives of one configuration by the oracle, and how much the Hessian changes over the stencil's size: |dH| S. */
@@ -56,41 +35,26 @@ static double size_of(const double *x, int n)
     return most;
 }
 
-/* H at x + and - a shift of random signs: what a rounding of every coordinate difference could do, scaled up. A side that is infeasible does not count. */
-static double hessian_change(const cipc_oracle_function *f, gsl_rng *rng, const double *x, const double *fields, const reference *r)
-{
-    double shifted[N], H[N * N], most = 0, shift = SHIFT * r->size;
-    double signs[N];
-    for (int i = 0; i < r->n; i++) signs[i] = gsl_rng_uniform(rng) < 0.5 ? -1 : 1;
-    for (int side = -1; side <= 1; side += 2) {
-        for (int i = 0; i < r->n; i++) shifted[i] = x[i] + side * shift * signs[i];
-        if (cipc_oracle_evaluate(f, shifted, fields, NULL, NULL, H) == CIPC_YES) most = fmax(most, largest_error(H, r->H, r->n * r->n));
-    }
-    return most / SHIFT;
-}
-
 static bool look_up(const cipc_oracle_function *f, gsl_rng *rng, const double *x, const double *fields, reference *r)
 {
     r->n = 3 * f->nodes;
     r->size = size_of(x, r->n);
     if (cipc_oracle_evaluate(f, x, fields, &r->value, r->g, r->H) != CIPC_YES) return false;
-    r->change = hessian_change(f, rng, x, fields, r);
+    r->change = verify_hessian_change(f, x, fields, r->g, r->H, r->size, gsl_rng_uniform_int(rng, 1UL << 24));
     return true;
 }
 
-static double ulp(double error, double scale) { return scale > 0 ? error / (2 * UNIT * scale) : error > 0 ? INFINITY : 0; }
-
-static double over(double error, double tolerance) { return error == 0 ? 0 : error / tolerance; }
+static double ulp(double error, double scale) { return scale > 0 ? error / (2 * VERIFY_UNIT * scale) : error > 0 ? INFINITY : 0; }
 
 /* (1)-(3): |v| + |g| S + |H| S^2; |g| + |H| S + |dH| S; |H| + |dH|. */
 static void compare(const reference *r, const double *got_value, const double *g, const double *H, long sample, verify_row *row, const cipc_query *query)
 {
-    double g_most = largest(r->g, r->n), H_most = largest(r->H, r->n * r->n), S = r->size;
-    double value_error = largest_error(got_value, &r->value, 1), g_error = largest_error(g, r->g, r->n), H_error = largest_error(H, r->H, r->n * r->n);
+    double g_most = verify_largest(r->g, r->n), H_most = verify_largest(r->H, r->n * r->n), S = r->size;
+    double value_error = verify_largest_error(got_value, &r->value, 1), g_error = verify_largest_error(g, r->g, r->n), H_error = verify_largest_error(H, r->H, r->n * r->n);
     double value_scale = fabs(r->value) + g_most * S + H_most * S * S, g_scale = g_most + H_most * S, H_scale = H_most + r->change;
-    verify_measure(row, 0, over(value_error, VALUE_ROUNDINGS * UNIT * value_scale), sample, query);
-    verify_measure(row, 1, over(g_error, GRADIENT_ROUNDINGS * UNIT * g_scale), sample, query);
-    verify_measure(row, 2, over(H_error, HESSIAN_ROUNDINGS * UNIT * H_scale), sample, query);
+    verify_measure(row, 0, verify_over(value_error, VERIFY_ROUNDINGS * VERIFY_UNIT * value_scale), sample, query);
+    verify_measure(row, 1, verify_over(g_error, VERIFY_ROUNDINGS * VERIFY_UNIT * g_scale), sample, query);
+    verify_measure(row, 2, verify_over(H_error, VERIFY_ROUNDINGS * VERIFY_UNIT * H_scale), sample, query);
     verify_measure(row, 3, ulp(value_error, fabs(r->value)), sample, query);
     verify_measure(row, 4, ulp(g_error, g_most), sample, query);
     verify_measure(row, 5, ulp(H_error, H_most), sample, query);
@@ -114,6 +78,7 @@ static void sample(int index, gsl_rng *rng, long number, verify_row *row, const 
     energy->gradient(x, &params, g);
     energy->hessian(x, &params, H);
     if (!isfinite(value)) verify_count(row, energy->branch_count, number, &query);
+    if (r.change == INFINITY) verify_count(row, energy->branch_count + 2, number, NULL);
     compare(&r, &value, g, H, number, row, &query);
 }
 
