@@ -15,6 +15,9 @@ static const command commands[] = {
     {"run", "simulate a scene and write what happened to a folder", cipc_command_run},
     {"scenes", "list the catalogue of scenes", cipc_command_scenes},
     {"verify", "hold the solver's functions against exact arithmetic", cipc_command_verify},
+    {"vectors", "write inputs of a function with right answers", cipc_command_vectors},
+    {"eval", "answer queries with the solver's functions", cipc_command_eval},
+    {"judge", "judge a port's answers", cipc_command_judge},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 

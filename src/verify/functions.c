@@ -3,46 +3,59 @@
 
 #include "verify/query.h"
 
-/* In the order of their level: scalars' and predicates' own numbers, then stencils, energies, times of impact. */
-static const char *const names[] = {
-    "orient3d",
-    "intersect_edge_triangle",
-    "distance2_point_point",
-    "distance2_point_edge",
-    "distance2_point_triangle",
-    "distance2_edge_edge",
-    "energy/inertia",
-    "energy/gravity",
-    "energy/dirichlet_penalty",
-    "energy/membrane_neo_hookean",
-    "energy/membrane_stvk",
-    "energy/strain_limit",
-    "energy/hinge_bending",
-    "energy/barrier_point_point",
-    "energy/barrier_point_edge",
-    "energy/barrier_point_triangle",
-    "energy/barrier_edge_edge",
-    "energy/friction",
-    "toi_point_point",
-    "toi_point_edge",
-    "toi_point_triangle",
-    "toi_edge_edge",
+/* In the order of their level. */
+typedef struct function_entry {
+    const char *name;
+    int level;
+    int numbers; /* of the field "x", where the name does not tell */
+} function_entry;
+
+static const function_entry table[] = {
+    {"barrier", 0, 2},              /* D, Dhat */
+    {"strain_limit_barrier", 0, 3}, /* sigma, s, shat */
+    {"friction_mollifier", 0, 2},   /* y, e */
+    {"orient3d", 1, 12},
+    {"intersect_edge_triangle", 1, 15},
+    {"distance2_point_point", 1, 6},
+    {"distance2_point_edge", 1, 9},
+    {"distance2_point_triangle", 1, 12},
+    {"distance2_edge_edge", 1, 12},
+    {"energy/inertia", 2, 0},
+    {"energy/gravity", 2, 0},
+    {"energy/dirichlet_penalty", 2, 0},
+    {"energy/membrane_neo_hookean", 2, 0},
+    {"energy/membrane_stvk", 2, 0},
+    {"energy/strain_limit", 2, 0},
+    {"energy/hinge_bending", 2, 0},
+    {"energy/barrier_point_point", 2, 0},
+    {"energy/barrier_point_edge", 2, 0},
+    {"energy/barrier_point_triangle", 2, 0},
+    {"energy/barrier_edge_edge", 2, 0},
+    {"energy/friction", 2, 0},
+    {"toi_point_point", 3, 0},
+    {"toi_point_edge", 3, 0},
+    {"toi_point_triangle", 3, 0},
+    {"toi_edge_edge", 3, 0},
 };
+enum { TABLE_COUNT = sizeof table / sizeof table[0] };
 
-int verify_function_count(void) { return (int)(sizeof names / sizeof names[0]); }
-
-const char *verify_function_at(int index) { return names[index]; }
-
-const char *verify_function_name(const char *name)
+static const function_entry *find(const char *name)
 {
-    for (int i = 0; i < verify_function_count(); i++)
-        if (strcmp(names[i], name) == 0) return names[i];
+    for (int i = 0; i < TABLE_COUNT; i++)
+        if (strcmp(table[i].name, name) == 0) return &table[i];
     return NULL;
 }
 
-int verify_query_numbers(const char *fn)
+int verify_function_count(void) { return TABLE_COUNT; }
+
+const char *verify_function_at(int index) { return table[index].name; }
+
+const char *verify_function_name(const char *name)
 {
-    cipc_pair_kind kind;
-    if (verify_query_kind(fn, "distance2_", &kind)) return 3 * cipc_pair_nodes(kind);
-    return strcmp(fn, "orient3d") == 0 ? 12 : 15; /* four points; edge and triangle */
+    const function_entry *entry = find(name);
+    return entry != NULL ? entry->name : NULL;
 }
+
+int verify_function_level(const char *fn) { return find(fn)->level; }
+
+int verify_query_numbers(const char *fn) { return find(fn)->numbers; }

@@ -4,6 +4,7 @@
 
 #include "cipc/oracle.h"
 #include "verify/toi.h"
+#include "verify/truth.h"
 
 /* Parts of a row, in the order of verify_toi_describe. */
 enum {
@@ -69,7 +70,7 @@ static double relative_speed(const cipc_stencil_path *path)
 }
 
 /* Eq. (16) with the slackness: (1 - s)(d - xi) / l_p, at most 1. */
-static double least_time(const cipc_stencil_path *path, double gap, double slackness)
+double verify_least_time(const cipc_stencil_path *path, double gap, double slackness)
 {
     double speed = relative_speed(path);
     return speed > 0 ? fmin(1, (1 - slackness) * gap / speed) : 1;
@@ -119,7 +120,7 @@ static void judge_certified(const judgement *j, const cipc_ccd_result *r, double
     note(j, UNSAFE, is_unsafe(j, r->toi));
     note(j, MISSED, contact && !r->hit);
     note(j, ZERO_STEP, !(r->toi > 0));
-    note(j, BELOW_BOUND, r->toi < BOUND_SLACK * least_time(j->path, j->gap, slackness));
+    note(j, BELOW_BOUND, r->toi < BOUND_SLACK * verify_least_time(j->path, j->gap, slackness));
     note(j, EARLY, !contact && r->hit);
     note(j, CAPPED, r->capped);
     note(j, ESCALATED, r->precision > 53);
