@@ -22,6 +22,8 @@ typedef struct cipc_invariant_report {
     long exact_gap_checks, exact_strain_checks; /* how often the filter had to hand over to exact arithmetic */
     long pairs_checked;                         /* point-triangle and edge-edge pairs with d - xi <= reach */
     long crossings_checked; /* edge-triangle pairs that no separating plane was found for: decided by the exact predicate */
+    long paths_checked;     /* M5: point-triangle and edge-edge pairs whose paths were looked at */
+    long exact_path_checks; /* of those, how many no fixed direction separates: decided by the exact time of impact */
     bool lists_made;        /* the lists of candidate pairs were made anew at this look */
 } cipc_invariant_report;
 
@@ -53,6 +55,11 @@ cipc_status cipc_monitor_intersection(cipc_monitor *monitor, const double *x, ci
 cipc_status cipc_monitor_gap(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);          /* M2 */
 cipc_status cipc_monitor_strain(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);       /* M3 */
 cipc_status cipc_monitor_inversion(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);    /* M4 */
+
+/* M5, separately, because it takes two states: along the straight path of every node from x_from to x_to (both [3 * node_count]) no point-triangle or edge-edge
+ * pair that shares no node comes to its xi or below. Decided exactly. CIPC_E_VIOLATED_SWEPT; CIPC_E_VIOLATED_FINITE; CIPC_E_INDETERMINATE; fills
+ * report->paths_checked and exact_path_checks. */
+cipc_status cipc_monitor_swept(cipc_monitor *monitor, const double *x_from, const double *x_to, cipc_invariant_report *report, cipc_error *error);
 
 /* M6: energy decrease between consecutive accepted points, and the residual at convergence. `noise` >= 0 is the caller's derived bound on
  * the rounding error of the difference of the two energies: after - before <= noise, decided exactly. Non-finite numbers violate. */

@@ -91,7 +91,7 @@ typedef struct cipc_run_summary {
     long newton_iterations, line_search_halvings, friction_passes, symbolic_analyses, factorizations;
     int max_contacts, max_newton_iterations;
     double min_gap, max_stretch, max_stretch_ratio;
-    long exact_gap_checks, exact_strain_checks;
+    long exact_gap_checks, exact_strain_checks, exact_path_checks, paths_checked;
     double seconds;                 /* of wall clock, in all */
     double output_seconds, seconds_by_phase[CIPC_PHASE_COUNT];
     long peak_memory_kb;

@@ -36,6 +36,7 @@ typedef struct cipc_scene {
     unsigned long seed;
     cipc_implicit_options options;
     bool monitor;                        /* default true */
+    bool monitor_swept;                  /* paths too (M5); default true */
     double monitor_reach;                /* m */
     bool write_obj;
     double camera_azimuth, camera_elevation, camera_zoom;   /* of frames.png; degrees are never implied: radians */

@@ -221,6 +221,16 @@ static void say_interrupted(const cipc_simulation *s)
             s->scene->state->step < s->summary.steps_taken ? s->scene->state->step : s->summary.steps_taken, s->scene->steps);
 }
 
+/* Room for the point accepted before, for the swept monitor. */
+static cipc_status prepare_paths(cipc_simulation *s)
+{
+    if (s->monitor == NULL || !s->scene->monitor_swept) {
+        return CIPC_OK;
+    }
+    s->previous = cipc_alloc(3 * (size_t)s->scene->model->node_count, sizeof *s->previous);
+    return s->previous != NULL ? CIPC_OK : cipc_fail(&s->error, CIPC_E_OUT_OF_MEMORY, "run", "no memory for the paths' starts");
+}
+
 static int run_to_the_end(cipc_simulation *s)
 {
     s->first_step = s->scene->state->step;
@@ -231,7 +241,10 @@ static int run_to_the_end(cipc_simulation *s)
         cipc_monitor_destroy(s->monitor);
         s->monitor = NULL;
     }
-    status = cipc_simulation_steps(s);
+    status = prepare_paths(s);
+    if (status == CIPC_OK) {
+        status = cipc_simulation_steps(s);
+    }
     s->summary.status = status;
     s->summary.error = status != CIPC_OK ? &s->error : NULL;
     cipc_error later;
@@ -257,6 +270,7 @@ static void clear(cipc_simulation *s)
     cipc_trajectory_close(s->trajectory, &ignored); /* still open only if something else has failed and been said */
     cipc_stepper_destroy(s->stepper);
     cipc_monitor_destroy(s->monitor);
+    cipc_free(s->previous);
     if (s->stats != NULL) {
         fclose(s->stats); /* every line was flushed and checked */
     }

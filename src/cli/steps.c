@@ -67,6 +67,10 @@ static cipc_status check_point(cipc_simulation *s, const cipc_accepted_point *po
     if (status == CIPC_OK) {
         status = cipc_monitor_check(s->monitor, point->x, &report, error);
     }
+    if (status == CIPC_OK && s->previous != NULL) {
+        status = cipc_monitor_swept(s->monitor, s->previous, point->x, &report, error);
+        memcpy(s->previous, point->x, 3 * (size_t)s->scene->model->node_count * sizeof *point->x);
+    }
     cipc_step_invariants_add(&s->seen, &report);
     return status == CIPC_OK ? CIPC_OK : report_violation(s, point, &report, error);
 }
@@ -148,6 +152,9 @@ static cipc_status take_step(cipc_simulation *s)
 {
     cipc_step_report report;
     s->seen = cipc_step_invariants_none();
+    if (s->previous != NULL) { /* the step's first path begins where the last step ended */
+        memcpy(s->previous, s->scene->state->position, 3 * (size_t)s->scene->model->node_count * sizeof *s->previous);
+    }
     cipc_status status = cipc_step(s->stepper, s->scene->state, &report, &s->error);
     if (status == CIPC_OK && s->monitor != NULL) {
         status = check_step(s, &report, &s->error);

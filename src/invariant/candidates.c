@@ -145,16 +145,21 @@ static double inflation(const invariant_candidates *c, int node)
     return 0.5 * (offset + c->reach + c->margin) * ROUND_UP;
 }
 
-/* Box of a primitive, inflated by r and rounded outwards. */
-static cipc_patch_box inflated_box(const int *nodes, int n, const double *x, double r)
+static void widen(double *lo, double *hi, double v)
+{
+    *lo = v < *lo ? v : *lo;
+    *hi = v > *hi ? v : *hi;
+}
+
+/* Box of a primitive, inflated by r and rounded outwards; with `to`, of its straight path from x to there: a path's box is that of its ends. */
+static cipc_patch_box inflated_box(const int *nodes, int n, const double *x, const double *to, double r)
 {
     cipc_patch_box box;
     for (int k = 0; k < 3; k++) {
         double lo = x[3 * (size_t)nodes[0] + (size_t)k], hi = lo;
-        for (int i = 1; i < n; i++) {
-            double v = x[3 * (size_t)nodes[i] + (size_t)k];
-            lo = v < lo ? v : lo;
-            hi = v > hi ? v : hi;
+        for (int i = 0; i < n; i++) {
+            widen(&lo, &hi, x[3 * (size_t)nodes[i] + (size_t)k]);
+            if (to != NULL) { widen(&lo, &hi, to[3 * (size_t)nodes[i] + (size_t)k]); }
         }
         /* The rounding of lo - r is at most u (|lo| + r), u = DBL_EPSILON / 2; take four times that, which covers its own rounding. */
         box.lo[k] = cipc_round_down(lo - (r + 2 * DBL_EPSILON * (fabs(lo) + r)));
@@ -168,7 +173,7 @@ static void make_boxes(const invariant_candidates *c, int kind, const double *x,
     const cipc_primitives *p = &c->primitives[kind];
     for (int place = 0; place < p->count; place++) {
         const int *nodes = &p->nodes[p->size * p->order[place]];
-        cipc_patch_box box = inflated_box(nodes, p->size, x, inflation(c, nodes[0]));
+        cipc_patch_box box = inflated_box(nodes, p->size, x, c->sweep_to, inflation(c, nodes[0]));
         cipc_patch_tree_set(tree, place, &box);
     }
     cipc_patch_tree_refit(tree);
@@ -224,7 +229,8 @@ static bool offer_pair(const invariant_candidates *c, invariant_candidate_part *
         b = swap;
     }
     const int *na = &pa->nodes[pa->size * a], *nb = &pb->nodes[pb->size * b];
-    bool skip = is_incident(part->kind, na, nb) || is_out_of_reach(c, part->kind, na, pa->size, nb, pb->size, x);
+    bool skip = is_incident(part->kind, na, nb);
+    skip = skip || (c->sweep_to == NULL && is_out_of_reach(c, part->kind, na, pa->size, nb, pb->size, x));
     return skip || append_pair(part, a, b);
 }
 
@@ -289,6 +295,7 @@ static void search_part(const invariant_candidates *c, invariant_candidate_part 
 {
     part->count = 0;
     part->failed = false;
+    if (c->sweep_to != NULL && part->kind == CIPC_CANDIDATE_EDGE_TRIANGLE) { return; }
     for (int patch = part->first; patch < part->last && !part->failed; patch++) { part->failed = !search_patch(c, part, patch, x); }
 }
 
@@ -327,4 +334,18 @@ bool invariant_candidates_update(invariant_candidates *c, const double *x, bool 
         memcpy(c->made_at, x, 3 * (size_t)c->model->node_count * sizeof *x);
     }
     return c->made;
+}
+
+bool invariant_candidates_valid(const invariant_candidates *c, const double *x)
+{
+    return still_valid(c, x);
+}
+
+bool invariant_candidates_sweep(invariant_candidates *c, const double *from, const double *to)
+{
+    c->sweep_to = to;
+    c->made = false;
+    bool good = make_lists(c, from);
+    c->sweep_to = NULL;
+    return good;
 }

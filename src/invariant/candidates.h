@@ -48,6 +48,7 @@ typedef struct invariant_candidates {
     invariant_candidate_part *parts;
     int part_count;
     double *made_at; /* positions the lists were made at */
+    const double *sweep_to; /* while paths are searched: where they end */
     bool made;
 } invariant_candidates;
 
@@ -58,6 +59,12 @@ void invariant_candidates_free(invariant_candidates *c);
 /* Make the lists valid for finite positions x; *made_now tells whether that took making them anew. False: out of memory (the lists are
  * void then). */
 bool invariant_candidates_update(invariant_candidates *c, const double *x, bool *made_now);
+
+/* Do the lists serve for x as they are? */
+bool invariant_candidates_valid(const invariant_candidates *c, const double *x);
+/* Make lists of all point-triangle and edge-edge pairs that may come within xi + reach of one another while every node moves straight from its place in `from`
+ * to that in `to` (both finite). They serve for this once. False: out of memory. */
+bool invariant_candidates_sweep(invariant_candidates *c, const double *from, const double *to);
 
 /* Contact thickness of the pair of these nodes' bodies (SPEC C.4, eq. 11), m. */
 double invariant_candidates_offset(const cipc_model *model, int node_a, int node_b);

@@ -50,7 +50,8 @@ cipc_status cipc_monitor_create(cipc_monitor **monitor, const cipc_model *model,
     m->model = model;
     m->options = o;
     m->rest = cipc_alloc((size_t)model->triangle_count, sizeof *m->rest);
-    if (!invariant_candidates_init(&m->candidates, model, o.reach, o.margin, o.threads, o.allow_fixed_fixed) || m->rest == NULL) {
+    if (!invariant_candidates_init(&m->candidates, model, o.reach, o.margin, o.threads, o.allow_fixed_fixed) ||
+        !invariant_candidates_init(&m->paths, model, 0, 0, o.threads, o.allow_fixed_fixed) || m->rest == NULL) {
         cipc_monitor_destroy(m);
         return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, place, "no memory for the broad phase of %d nodes", model->node_count);
     }
@@ -63,6 +64,7 @@ void cipc_monitor_destroy(cipc_monitor *monitor)
 {
     if (monitor != NULL) {
         invariant_candidates_free(&monitor->candidates);
+        invariant_candidates_free(&monitor->paths);
         cipc_free(monitor->rest);
         cipc_free(monitor);
     }

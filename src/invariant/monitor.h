@@ -17,6 +17,7 @@ struct cipc_monitor {
     const cipc_model *model;
     cipc_invariant_options options;
     invariant_candidates candidates;
+    invariant_candidates paths; /* of M5, when nodes move too far for the lists above */
     cipc_strain_rest *rest; /* triangle_count */
 };
 

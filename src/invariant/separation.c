@@ -30,7 +30,7 @@
 /* Edges (or sides of a triangle) at an angle below about this (its sine) have a poor cross product: their ends are tried as well. */
 #define NEAR_PARALLEL 1e-3
 
-static const cipc_separation nothing = {-INFINITY, INFINITY, false};
+static const cipc_separation nothing = {-INFINITY, INFINITY, false, {0, 0, 0}};
 
 static inline double larger(double a, double b)
 {
@@ -104,8 +104,9 @@ static bool is_tight(double lower, double upper, double size)
     return upper - lower <= TIGHT_RELATIVE * upper + TIGHT_SIZE * size;
 }
 
-static void keep_better(cipc_separation *best, double lower, double upper, double size)
+static void keep_better(cipc_separation *best, double lower, double upper, double size, const double n[3])
 {
+    if (lower >= best->lower) { v3_copy(best->n, n); }
     best->lower = larger(best->lower, lower);
     best->upper = smaller(best->upper, upper);
     best->tight = is_tight(best->lower, best->upper, size);
@@ -137,7 +138,7 @@ static bool separate_by_normal(cipc_separation *best, const double x[12], double
     if (!(n2 > 0 && beta1 >= 0 && beta2 >= 0 && beta1 + beta2 <= n2)) { return false; }
     double height = -v3_dot(y[0], n);
     v3_scale(n, height < 0 ? -1.0 : 1.0, n);
-    keep_better(best, point_triangle_along(y, n, size), fabs(height) / sqrt(n2), size);
+    keep_better(best, point_triangle_along(y, n, size), fabs(height) / sqrt(n2), size, n);
     return n2 > NEAR_PARALLEL * NEAR_PARALLEL * v3_norm2(e1) * v3_norm2(e2);
 }
 
@@ -150,7 +151,7 @@ static void separate_by_sides(cipc_separation *best, double y[3][3], double size
         offer_segment(&nearest, y[i], d, 1);
     }
     if (nearest.inside) { orthogonalise(nearest.n, nearest.along); }
-    keep_better(best, point_triangle_along(y, nearest.n, size), sqrt(nearest.distance2), size);
+    keep_better(best, point_triangle_along(y, nearest.n, size), sqrt(nearest.distance2), size, nearest.n);
 }
 
 cipc_separation cipc_separate_point_triangle(const double x[12], double enough)
@@ -163,6 +164,7 @@ cipc_separation cipc_separate_point_triangle(const double x[12], double enough)
     cipc_separation best = nothing;
     for (int k = 0; k < 3; k++) { n[k] = -(y[0][k] + y[1][k] + y[2][k]); }
     best.lower = point_triangle_along(y, n, size); /* towards the centroid: settles most far pairs */
+    v3_copy(best.n, n);
     if (best.lower > enough) { return best; }
     bool settled = separate_by_normal(&best, x, y, size);
     if (!(settled && best.tight) && !(best.lower > enough)) { separate_by_sides(&best, y, size); }
@@ -193,7 +195,7 @@ static bool separate_by_common_normal(cipc_separation *best, double y[3][3], con
     if (!(n2 > 0 && ta >= 0 && ta <= n2 && tb >= 0 && tb <= n2)) { return false; }
     double height = -v3_dot(y[1], n);
     v3_scale(n, height < 0 ? -1.0 : 1.0, n);
-    keep_better(best, edge_edge_along(y, n, size), fabs(height) / sqrt(n2), size);
+    keep_better(best, edge_edge_along(y, n, size), fabs(height) / sqrt(n2), size, n);
     return n2 > NEAR_PARALLEL * NEAR_PARALLEL * v3_norm2(da) * v3_norm2(db);
 }
 
@@ -209,7 +211,7 @@ static void separate_by_ends(cipc_separation *best, const double x[12], double y
     v3_sub(r, x, &x[9]);
     offer_segment(&nearest, r, da, -1); /* b1 to edge a */
     if (nearest.inside) { orthogonalise(nearest.n, nearest.along); }
-    keep_better(best, edge_edge_along(y, nearest.n, size), sqrt(nearest.distance2), size);
+    keep_better(best, edge_edge_along(y, nearest.n, size), sqrt(nearest.distance2), size, nearest.n);
 }
 
 cipc_separation cipc_separate_edge_edge(const double x[12], double enough)
@@ -222,12 +224,23 @@ cipc_separation cipc_separate_edge_edge(const double x[12], double enough)
     cipc_separation best = nothing;
     for (int k = 0; k < 3; k++) { n[k] = y[0][k] - y[1][k] - y[2][k]; }
     best.lower = edge_edge_along(y, n, size); /* between the mid-points: settles most far pairs */
+    v3_copy(best.n, n);
     if (best.lower > enough) { return best; }
     v3_sub(da, &x[3], x);
     v3_sub(db, &x[9], &x[6]);
     bool settled = separate_by_common_normal(&best, y, da, db, size);
     if (!(settled && best.tight) && !(best.lower > enough)) { separate_by_ends(&best, x, y, da, db, size); }
     return best;
+}
+
+double cipc_separation_along(bool edge_edge, const double x[12], const double n[3])
+{
+    double y[3][3], size = 0;
+    for (int i = 0; i < 3; i++) {
+        v3_sub(y[i], &x[3 * i + 3], x);
+        size = largest(size, y[i]);
+    }
+    return edge_edge ? edge_edge_along(y, n, size) : point_triangle_along(y, n, size);
 }
 
 /* --- edge-triangle: y = t0, t1, t2, e1 relative to e0. --- */

@@ -9,12 +9,16 @@
 typedef struct cipc_separation {
     double lower, upper;
     bool tight;
+    double n[3]; /* the direction that gave lower, from the second primitive to the first */
 } cipc_separation;
 
 /* Point p against triangle t0, t1, t2; edge a0, a1 against edge b0, b1. Any doubles, degenerate primitives too. The search stops early once
  * lower > enough (then upper and tight mean nothing); enough = INFINITY: look for the best. */
 cipc_separation cipc_separate_point_triangle(const double x[12], double enough);
 cipc_separation cipc_separate_edge_edge(const double x[12], double enough);
+
+/* Certified lower bound of the distance along a given direction: point-triangle or edge-edge. */
+double cipc_separation_along(bool edge_edge, const double x[12], const double n[3]);
 
 /* Is it proven that edge and triangle have no point in common? A disjoint pair is recognised unless rounding prevents it. */
 bool cipc_edge_triangle_apart(const double edge[6], const double triangle[9]);

@@ -34,6 +34,8 @@ void cipc_step_invariants_add(cipc_step_invariants *step, const cipc_invariant_r
     worst->max_stretch_ratio = fmax(worst->max_stretch_ratio, report->max_stretch_ratio);
     worst->exact_gap_checks += report->exact_gap_checks;
     worst->exact_strain_checks += report->exact_strain_checks;
+    worst->paths_checked += report->paths_checked;
+    worst->exact_path_checks += report->exact_path_checks;
     worst->pairs_checked += report->pairs_checked;
     worst->crossings_checked += report->crossings_checked;
 }
@@ -72,6 +74,8 @@ static const field monitor_fields[] = {
     MONITOR_FIELD("energy_checks", energy_checks, LONG_INTEGER),
     MONITOR_FIELD("exact_gap_checks", worst.exact_gap_checks, LONG_INTEGER),
     MONITOR_FIELD("exact_strain_checks", worst.exact_strain_checks, LONG_INTEGER),
+    MONITOR_FIELD("paths_checked", worst.paths_checked, LONG_INTEGER),
+    MONITOR_FIELD("exact_path_checks", worst.exact_path_checks, LONG_INTEGER),
     MONITOR_FIELD("pairs_checked", worst.pairs_checked, LONG_INTEGER),
     MONITOR_FIELD("crossings_checked", worst.crossings_checked, LONG_INTEGER),
 };

@@ -42,12 +42,14 @@ void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *rep
     summary->max_stretch_ratio = fmax(summary->max_stretch_ratio, invariants->worst.max_stretch_ratio);
     summary->exact_gap_checks += invariants->worst.exact_gap_checks;
     summary->exact_strain_checks += invariants->worst.exact_strain_checks;
+    summary->exact_path_checks += invariants->worst.exact_path_checks;
+    summary->paths_checked += invariants->worst.paths_checked;
 }
 
 enum { INVARIANT_COUNT = 8 };
 
 /* At a point the monitors look in this order and stop at the first violation; 0: no monitor of that number exists. */
-static const int turn[INVARIANT_COUNT + 1] = {[6] = 1, [8] = 2, [1] = 3, [2] = 4, [3] = 5, [4] = 6};
+static const int turn[INVARIANT_COUNT + 1] = {[6] = 1, [8] = 2, [1] = 3, [2] = 4, [3] = 5, [4] = 6, [5] = 7};
 
 static int violated_invariant(cipc_status status)
 {
@@ -56,6 +58,7 @@ static int violated_invariant(cipc_status status)
     case CIPC_E_VIOLATED_GAP: return 2;
     case CIPC_E_VIOLATED_STRAIN: return 3;
     case CIPC_E_VIOLATED_INVERSION: return 4;
+    case CIPC_E_VIOLATED_SWEPT: return 5;
     case CIPC_E_VIOLATED_ENERGY: return 6;
     case CIPC_E_VIOLATED_FINITE: return 8;
     default: return 0;
@@ -139,6 +142,8 @@ static json_t *monitors_object(const cipc_run_summary *summary, bool *good)
     cipc_json_put(object, "energy_checks", json_integer(summary->energy_checks), good);
     cipc_json_put(object, "exact_gap_checks", json_integer(summary->exact_gap_checks), good);
     cipc_json_put(object, "exact_strain_checks", json_integer(summary->exact_strain_checks), good);
+    cipc_json_put(object, "paths_checked", json_integer(summary->paths_checked), good);
+    cipc_json_put(object, "exact_path_checks", json_integer(summary->exact_path_checks), good);
     cipc_json_put(object, "seconds", cipc_json_number(seconds), good);
     cipc_json_put(object, "percent", cipc_json_number(summary->seconds > 0 ? 100 * seconds / summary->seconds : 0), good);
     return object;

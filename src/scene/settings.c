@@ -89,10 +89,11 @@ static void read_contact(scene_reader *r, const scene_cursor *root, cipc_implici
 
 static void read_monitor(scene_reader *r, const scene_cursor *root, cipc_scene *scene)
 {
-    static const char *const keys[] = {"enabled", "reach", NULL};
+    static const char *const keys[] = {"enabled", "swept", "reach", NULL};
     scene_cursor monitor = scene_object_member(r, root, "monitor");
     if (!scene_is_object(r, &monitor, keys)) return;
     scene->monitor = scene_boolean(r, &monitor, "enabled", true);
+    scene->monitor_swept = scene_boolean(r, &monitor, "swept", true);
     scene->monitor_reach = scene_number(r, &monitor, "reach", scene->options.contact.dhat, scene_not_negative);
 }
 

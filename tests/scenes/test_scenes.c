@@ -103,9 +103,9 @@ static void assert_monitored(const scene_outcome *o)
 static void print_figures(const char *name, const scene_outcome *o)
 {
     print_message("%s: %d steps, %d nodes, %ld points checked, %.0f Newton iterations, at most %d contacts, min gap %.3g m, "
-                  "largest stretch %.7f, largest (sigma - 1)/(s - 1) %.4f, exact gap checks %ld, exact strain checks %ld\n",
+                  "largest stretch %.7f, largest (sigma - 1)/(s - 1) %.4f, exact gap checks %ld, exact strain checks %ld, paths %ld, of which exact %ld\n",
                   name, o->steps, o->node_count, o->points, o->quantity[QUANTITY_newton_iterations], o->max_contacts, o->min_gap,
-                  o->max_stretch, o->max_stretch_ratio, o->exact_gap_checks, o->exact_strain_checks);
+                  o->max_stretch, o->max_stretch_ratio, o->exact_gap_checks, o->exact_strain_checks, o->paths_checked, o->exact_path_checks);
 }
 
 static golden_bands bands_or_fail(const variant *v)

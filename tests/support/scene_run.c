@@ -42,6 +42,7 @@ typedef struct run {
     scene_outcome *outcome;
     long points_of_step;
     double stretch_now;   /* at the last accepted point */
+    double *previous;     /* the point accepted before: where the next path begins */
 } run;
 
 /* ---- The monitors ----------------------------------------------------------------------------------------------------------- */
@@ -66,9 +67,11 @@ static void take_in(run *r, const cipc_invariant_report *report)
     o->max_stretch_ratio = fmax(o->max_stretch_ratio, report->max_stretch_ratio);
     o->exact_gap_checks += report->exact_gap_checks;
     o->exact_strain_checks += report->exact_strain_checks;
+    o->paths_checked += report->paths_checked;
+    o->exact_path_checks += report->exact_path_checks;
 }
 
-/* M6, then M8 and M1 to M4 (docs/monitors.md). */
+/* M6, then M8, M1 to M4, and M5 (docs/monitors.md). */
 static cipc_status look(void *context, const cipc_accepted_point *point, cipc_error *error)
 {
     run *r = context;
@@ -81,6 +84,10 @@ static cipc_status look(void *context, const cipc_accepted_point *point, cipc_er
     }
     if (status == CIPC_OK) {
         status = cipc_monitor_check(r->monitor, point->x, &report, error);
+    }
+    if (status == CIPC_OK) {
+        status = cipc_monitor_swept(r->monitor, r->previous, point->x, &report, error);
+        memcpy(r->previous, point->x, 3 * (size_t)r->scene->model->node_count * sizeof *point->x);
     }
     if (status != CIPC_OK) {
         return at_point(point, error);
@@ -141,6 +148,10 @@ static cipc_status open_run(run *r, const scene_request *request, cipc_error *er
     if (status == CIPC_OK) {
         status = cipc_monitor_check(r->monitor, scene->state->position, NULL, error);
     }
+    r->previous = cipc_alloc(3 * (size_t)scene->model->node_count, sizeof *r->previous);
+    if (status == CIPC_OK && r->previous == NULL) {
+        status = cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "scene_run", "no memory for the start of a path");
+    }
     if (status == CIPC_OK) {
         status = cipc_stepper_create(&r->stepper, scene->model, &scene->options, error);
     }
@@ -155,6 +166,7 @@ static cipc_status take_step(run *r, cipc_error *error)
     cipc_state *state = r->scene->state;
     scene_outcome *o = r->outcome;
     r->points_of_step = 0;
+    memcpy(r->previous, state->position, 3 * (size_t)r->scene->model->node_count * sizeof *r->previous);
     cipc_status status = cipc_step(r->stepper, state, &report, error);
     if (status == CIPC_OK) {
         status = cipc_monitor_residual(report.residual, r->scene->options.newton_tolerance, error);
@@ -256,6 +268,7 @@ cipc_status scene_run(const scene_request *request, scene_outcome *outcome, cipc
     }
     cipc_stepper_destroy(r.stepper);
     cipc_monitor_destroy(r.monitor);
+    cipc_free(r.previous);
     cipc_scene_destroy(r.scene);
     return status;
 }

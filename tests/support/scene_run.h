@@ -44,6 +44,7 @@ typedef struct scene_outcome {
     double min_gap;                    /* m: d - xi, smallest at any accepted point; INFINITY: nothing came within reach */
     double max_stretch, max_stretch_ratio; /* at any accepted point */
     long exact_gap_checks, exact_strain_checks;
+    long paths_checked, exact_path_checks; /* M5 */
     int max_contacts;
     double max_friction;               /* J: largest friction term of a step's incremental potential; > 0: friction was active */
     double time_step, tolerance, moving_mass; /* s, m/s, kg */

@@ -1,0 +1,160 @@
+/* Monitor M5: along the straight path between two accepted points no pair comes to its thickness or below (SPEC V.5; docs/monitors.md, "The swept check").
+ *
+ * The separation of two primitives along a fixed direction is a concave function of time when their nodes move on straight lines. So a direction along which it
+ * exceeds xi at both ends, certified, clears the whole path. What no direction tried clears is decided by the exact time of impact. */
+#include "cipc/invariant.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cipc/oracle.h"
+#include "invariant/monitor.h"
+#include "invariant/separation.h"
+
+typedef struct moving_pair {
+    bool edge_edge;
+    int nodes[4];
+    double offset; /* xi */
+    cipc_exact_impact impact;
+} moving_pair;
+
+/* What one part of the lists gave; the violating pair with the least nodes, so that the answer does not depend on the order of the lists. */
+typedef struct swept_result {
+    long checked, exact;
+    bool violated, undecided;
+    moving_pair first;
+} swept_result;
+
+static cipc_separation separate(const moving_pair *p, const double stencil[12], double enough)
+{
+    return p->edge_edge ? cipc_separate_edge_edge(stencil, enough) : cipc_separate_point_triangle(stencil, enough);
+}
+
+/* A direction that clears one end, tried at the other. The first one found that clears, then the best one. */
+static bool cleared_from(const moving_pair *p, const double here[12], const double there[12])
+{
+    cipc_separation s = separate(p, here, p->offset);
+    if (!(s.lower > p->offset)) { return false; }
+    if (cipc_separation_along(p->edge_edge, there, s.n) > p->offset) { return true; }
+    s = separate(p, here, INFINITY);
+    return s.lower > p->offset && cipc_separation_along(p->edge_edge, there, s.n) > p->offset;
+}
+
+static bool less_nodes(const moving_pair *a, const moving_pair *b)
+{
+    if (a->edge_edge != b->edge_edge) { return b->edge_edge; }
+    for (int i = 0; i < 4; i++) {
+        if (a->nodes[i] != b->nodes[i]) { return a->nodes[i] < b->nodes[i]; }
+    }
+    return false;
+}
+
+static void keep_first(swept_result *r, const moving_pair *p)
+{
+    if (!(r->violated || r->undecided) || less_nodes(p, &r->first)) { r->first = *p; }
+}
+
+static void check_pair(swept_result *r, moving_pair *p, const double *from, const double *to)
+{
+    double here[12], there[12];
+    cipc_gather(here, from, p->nodes, 4);
+    cipc_gather(there, to, p->nodes, 4);
+    r->checked++;
+    if (cleared_from(p, here, there) || cleared_from(p, there, here)) { return; }
+    cipc_stencil_path path = {.kind = cipc_mesh_pair(p->edge_edge), .to_end = true};
+    memcpy(path.x, here, sizeof here);
+    memcpy(path.p, there, sizeof there);
+    r->exact++;
+    cipc_verdict clear = cipc_exact_path_clear(&path, p->offset, 1);
+    if (clear == CIPC_YES) { return; }
+    p->impact = cipc_exact_toi(&path, p->offset, 1);
+    keep_first(r, p);
+    if (clear == CIPC_NO) { r->violated = true; }
+    else { r->undecided = true; }
+}
+
+static void set_nodes(moving_pair *p, const cipc_model *m, const int pair[2])
+{
+    if (p->edge_edge) {
+        memcpy(p->nodes, m->edges[pair[0]], 2 * sizeof(int));
+        memcpy(&p->nodes[2], m->edges[pair[1]], 2 * sizeof(int));
+    } else {
+        p->nodes[0] = pair[0];
+        memcpy(&p->nodes[1], m->triangles[pair[1]], 3 * sizeof(int));
+    }
+    p->offset = invariant_candidates_offset(m, p->nodes[0], p->nodes[p->edge_edge ? 2 : 1]);
+}
+
+static swept_result check_part(const cipc_model *m, const invariant_candidate_part *part, const double *from, const double *to)
+{
+    swept_result r = {0};
+    moving_pair p = {.edge_edge = part->kind == CIPC_CANDIDATE_EDGE_EDGE};
+    for (int i = 0; i < part->count; i++) {
+        set_nodes(&p, m, part->pairs[i]);
+        check_pair(&r, &p, from, to);
+    }
+    return r;
+}
+
+static cipc_status fail_swept(const cipc_model *m, const swept_result *r, cipc_error *error)
+{
+    const moving_pair *p = &r->first;
+    const int *n = p->nodes;
+    const char *a = cipc_monitor_body(m, n[0]), *b = cipc_monitor_body(m, n[3]);
+    cipc_status status = r->violated ? CIPC_E_VIOLATED_SWEPT : CIPC_E_INDETERMINATE;
+    char text[192];
+    snprintf(text, sizeof text, "on the way the distance falls to the offset %.17g (%a) at %.17g (%a) of the path", p->offset, p->offset, p->impact.lo, p->impact.lo);
+    if (!r->violated) { snprintf(text, sizeof text, "exact arithmetic could not decide whether the distance falls to the offset %.17g (%a)", p->offset, p->offset); }
+    if (p->edge_edge) {
+        return cipc_fail(error, status, "monitor swept", "edge (nodes %d %d, body \"%s\") and edge (nodes %d %d, body \"%s\"): %s", n[0], n[1], a, n[2], n[3], b,
+                         text);
+    }
+    return cipc_fail(error, status, "monitor swept", "node %d (body \"%s\") and triangle (nodes %d %d %d, body \"%s\"): %s", n[0], a, n[1], n[2], n[3], b, text);
+}
+
+/* The lists of the resting monitors serve for the whole path if they serve for both ends: a node that is within half their margin of where they were made at
+ * both ends is so all the way between. */
+static cipc_status find_pairs(cipc_monitor *monitor, const double *from, const double *to, const invariant_candidates **pairs, cipc_error *error)
+{
+    *pairs = &monitor->candidates;
+    if (invariant_candidates_valid(*pairs, from) && invariant_candidates_valid(*pairs, to)) { return CIPC_OK; }
+    *pairs = &monitor->paths;
+    if (invariant_candidates_sweep(&monitor->paths, from, to)) { return CIPC_OK; }
+    return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "monitor swept", "no memory for the lists of candidate pairs");
+}
+
+static swept_result merge(const swept_result *results, int count)
+{
+    swept_result all = {0};
+    for (int i = 0; i < count; i++) {
+        if (results[i].violated || results[i].undecided) { keep_first(&all, &results[i].first); }
+        all.checked += results[i].checked;
+        all.exact += results[i].exact;
+        all.violated = all.violated || results[i].violated;
+        all.undecided = all.undecided || results[i].undecided;
+    }
+    return all;
+}
+
+cipc_status cipc_monitor_swept(cipc_monitor *monitor, const double *from, const double *to, cipc_invariant_report *report, cipc_error *error)
+{
+    const invariant_candidates *c = NULL;
+    cipc_status status = cipc_monitor_finite(monitor->model, from, error);
+    if (status == CIPC_OK) { status = cipc_monitor_finite(monitor->model, to, error); }
+    if (status == CIPC_OK) { status = find_pairs(monitor, from, to, &c, error); }
+    if (status != CIPC_OK) { return status; }
+    swept_result *results = cipc_alloc((size_t)c->part_count, sizeof *results);
+    if (results == NULL) { return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "monitor swept", "no memory for the results of %d parts", c->part_count); }
+#pragma omp parallel for schedule(dynamic) num_threads(monitor->options.threads) if (monitor->options.threads > 1)
+    for (int i = 0; i < c->part_count; i++) {
+        if (c->parts[i].kind != CIPC_CANDIDATE_EDGE_TRIANGLE) { results[i] = check_part(monitor->model, &c->parts[i], from, to); }
+    }
+    swept_result all = merge(results, c->part_count);
+    cipc_free(results);
+    if (report != NULL) {
+        report->paths_checked = all.checked;
+        report->exact_path_checks = all.exact;
+    }
+    return all.violated || all.undecided ? fail_swept(monitor->model, &all, error) : CIPC_OK;
+}
