@@ -84,6 +84,7 @@ typedef struct cipc_run_summary {
     bool converged;                 /* every step */
     bool interrupted;               /* by a signal */
     bool monitored;                 /* every step */
+    bool swept;                     /* the paths between accepted points too (M5) */
     int limited_triangles;          /* of bodies with a strain limit: M3 has something to look at */
     int tetrahedra;                 /* M4 has */
     long points_checked;            /* accepted line-search points that the monitors looked at */

@@ -196,6 +196,7 @@ static void begin_summary(cipc_simulation *s)
     s->summary.command = s->request->command;
     s->summary.steps_asked = scene->steps;
     s->summary.monitored = s->request->monitor;
+    s->summary.swept = s->request->monitor && scene->monitor_swept;
     s->summary.tetrahedra = scene->model->tetrahedron_count;
     s->summary.threads = scene->options.threads;
     s->summary.seed = scene->seed;

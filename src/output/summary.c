@@ -74,7 +74,7 @@ static long points_passed(const cipc_run_summary *summary, int invariant)
     if (invariant == 6) {
         return summary->energy_checks - unseen;
     }
-    if ((invariant == 3 && summary->limited_triangles == 0) || (invariant == 4 && summary->tetrahedra == 0)) {
+    if ((invariant == 3 && summary->limited_triangles == 0) || (invariant == 4 && summary->tetrahedra == 0) || (invariant == 5 && !summary->swept)) {
         return 0;
     }
     return summary->points_checked - unseen;

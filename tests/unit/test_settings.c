@@ -28,7 +28,8 @@ static void test_defaults_are_the_integrators_own(void **state)
     assert_true(o->line_search_halvings == want.line_search_halvings && o->friction_iterations == want.friction_iterations);
     assert_true(o->friction_cap == want.friction_cap && o->friction_velocity == want.friction_velocity);
     assert_true(o->contact.dhat == want.contact.dhat && o->contact.area_weights == want.contact.area_weights);
-    assert_true(o->ccd.slackness == want.ccd.slackness && o->ccd.max_iterations == want.ccd.max_iterations);
+    assert_true(o->ccd.slackness == want.ccd.slackness && o->ccd.max_iterations == want.ccd.max_iterations &&
+                o->ccd.method == CIPC_CCD_CERTIFIED && !o->ccd.refine && s->monitor_swept);
     assert_true(o->barrier_stiffness == 0 && !o->released && o->integrator.beta == 1 && o->integrator.gamma == 0);
     assert_true(s->model->gravity[1] == -9.81 && s->model->gravity[0] == 0);
     assert_true(s->monitor && s->monitor_reach == want.contact.dhat && !s->write_obj && s->camera_zoom == 1 && s->seed == 1);
@@ -45,8 +46,8 @@ static void test_everything_can_be_set(void **state)
         "\"implicit-midpoint\","
         "\"newton\": {\"tolerance\": 1e-6, \"norm\": \"rms\", \"iterations\": 7, \"line_search_halvings\": 8},"
         "\"contact\": {\"dhat\": 2e-3, \"area_weights\": false, \"barrier_stiffness\": 5, \"friction_iterations\": 0, \"friction_cap\": 3,"
-        " \"friction_velocity\": 1e-5, \"slackness\": 0.2, \"ccd_iterations\": 99},"
-        "\"monitor\": {\"enabled\": false, \"reach\": 0.5}, \"output\": {\"obj\": true, \"camera\": {\"azimuth\": 1, \"elevation\": 2, "
+        " \"friction_velocity\": 1e-5, \"slackness\": 0.2, \"ccd_iterations\": 99, \"ccd\": \"cubic\", \"ccd_refine\": true},"
+        "\"monitor\": {\"enabled\": false, \"swept\": false, \"reach\": 0.5}, \"output\": {\"obj\": true, \"camera\": {\"azimuth\": 1, \"elevation\": 2, "
         "\"zoom\": 3}},");
     cipc_implicit_options *o = &s->options;
     assert_string_equal(s->title, "A test");
@@ -57,7 +58,7 @@ static void test_everything_can_be_set(void **state)
                 o->line_search_halvings == 8);
     assert_true(o->contact.dhat == 2e-3 && !o->contact.area_weights && o->barrier_stiffness == 5 && o->friction_iterations == 0 &&
                 o->friction_cap == 3);
-    assert_true(o->friction_velocity == 1e-5 && o->ccd.slackness == 0.2 && o->ccd.max_iterations == 99);
+    assert_true(o->friction_velocity == 1e-5 && o->ccd.slackness == 0.2 && o->ccd.max_iterations == 99 && o->ccd.method == CIPC_CCD_CUBIC && o->ccd.refine && !s->monitor_swept);
     assert_true(!s->monitor && s->monitor_reach == 0.5 && s->write_obj && s->camera_azimuth == 1 && s->camera_elevation == 2 &&
                 s->camera_zoom == 3);
     cipc_scene_destroy(s);
@@ -72,7 +73,7 @@ static void test_released(void **state)
     (void)state;
     cipc_scene *s = accept_around("\"compat\": \"released\",");
     assert_true(s->options.released && s->options.newton_norm == CIPC_NORM_RMS && s->options.newton_tolerance == 1e-3 &&
-                !s->options.contact.area_weights);
+                !s->options.contact.area_weights && s->options.ccd.method == CIPC_CCD_ADDITIVE);
     assert_int_equal(s->model->bodies[0].material.hinge_constant, CIPC_HINGE_CIPC);
     cipc_scene_destroy(s);
     s = accept_around(

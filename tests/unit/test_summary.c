@@ -23,6 +23,7 @@ static cipc_run_summary good_run(void)
     s.time = 0.04;
     s.points_checked = 10;
     s.energy_checks = 9;
+    s.swept = true;
     s.limited_triangles = 100;
     s.min_gap = 1e-5;
     s.max_stretch = 1.05;
@@ -51,12 +52,14 @@ static void test_verdicts_of_good_runs(void **state)
 {
     (void)state;
     cipc_run_summary s = good_run();
-    assert_verdicts(&s, "hhh--h-h"); /* M5 and M7 have no monitor; no tetrahedra for M4 */
+    assert_verdicts(&s, "hhh-hh-h"); /* M7 has no monitor; no tetrahedra for M4 */
     s.tetrahedra = 1;
-    assert_verdicts(&s, "hhhh-h-h");
+    assert_verdicts(&s, "hhhhhh-h");
     s.limited_triangles = 0;
-    assert_verdicts(&s, "hh-h-h-h");
+    assert_verdicts(&s, "hh-hhh-h");
     s.energy_checks = 0;
+    assert_verdicts(&s, "hh-hh--h");
+    s.swept = false;
     assert_verdicts(&s, "hh-h---h");
     s.points_checked = 0;
     assert_verdicts(&s, "--------");
@@ -65,7 +68,7 @@ static void test_verdicts_of_good_runs(void **state)
     assert_verdicts(&s, "--------");
     s = good_run();
     s.status = CIPC_E_NOT_CONVERGED; /* what was seen was seen */
-    assert_verdicts(&s, "hhh--h-h");
+    assert_verdicts(&s, "hhh-hh-h");
 }
 
 static void test_verdicts_of_violations(void **state)
@@ -74,9 +77,9 @@ static void test_verdicts_of_violations(void **state)
     cipc_run_summary s = good_run();
     s.tetrahedra = 1;
     const struct { cipc_status status; const char *verdicts; } cases[] = {
-        {CIPC_E_VIOLATED_INTERSECTION, "vhhh-h-h"}, {CIPC_E_VIOLATED_GAP, "hvhh-h-h"},    {CIPC_E_VIOLATED_STRAIN, "hhvh-h-h"},
-        {CIPC_E_VIOLATED_INVERSION, "hhhv-h-h"},    {CIPC_E_VIOLATED_ENERGY, "hhhh-v-h"}, {CIPC_E_VIOLATED_FINITE, "hhhh-h-v"},
-        {CIPC_E_INDETERMINATE, "-----h-h"},
+        {CIPC_E_VIOLATED_INTERSECTION, "vhhhhh-h"}, {CIPC_E_VIOLATED_GAP, "hvhhhh-h"},    {CIPC_E_VIOLATED_STRAIN, "hhvhhh-h"},
+        {CIPC_E_VIOLATED_INVERSION, "hhhvhh-h"},    {CIPC_E_VIOLATED_ENERGY, "hhhhhv-h"}, {CIPC_E_VIOLATED_FINITE, "hhhhhh-v"},
+        {CIPC_E_VIOLATED_SWEPT, "hhhhvh-h"},    {CIPC_E_INDETERMINATE, "-----h-h"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         s.status = cases[i].status;
@@ -125,6 +128,7 @@ static void test_fields(void **state)
     json_t *o = written(&s);
     static const char *const integers[] = {"exit_status", "seed", "threads", "steps_asked", "steps_taken", "monitors.points_checked",
                                            "monitors.energy_checks", "monitors.exact_gap_checks", "monitors.exact_strain_checks",
+                                           "monitors.paths_checked", "monitors.exact_path_checks",
                                            "extremes.max_contacts", "extremes.max_newton_iterations", "totals.newton_iterations",
                                            "totals.line_search_halvings", "totals.friction_passes", "totals.symbolic_analyses",
                                            "totals.factorizations", "peak_memory_kb"};
