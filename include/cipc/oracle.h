@@ -73,13 +73,14 @@ int cipc_oracle_function_count(void);
 const cipc_oracle_function *cipc_oracle_function_at(int index);
 const cipc_oracle_function *cipc_oracle_function_find(const char *name); /* or NULL */
 
-/* Value, gradient g[n] and Hessian H[n * n], n = 3 * nodes, each rounded from about 60 digits (central differences at 512 bits, step 2^-100 of the
- * stencil's size); g and H may be NULL. INDETERMINATE: infeasible there or at a distance of the step from it, not
- * finite, or a value that at twice the precision rounds to another double. YES otherwise. */
+/* Value, gradient g[n] and Hessian H[n * n], n = 3 * nodes, each rounded from about 60 digits (central differences at 512 bits, step h = 2^-100 of the
+ * stencil's size; within h of a switch with continuous second derivatives, from about 30); g and H may be NULL. INDETERMINATE: infeasible there or within h
+ * of it; a switch with a jump within h (a hinge folded to +-pi; for H the mollifier's end); derivatives that change over h so much that the differences
+ * contradict one another; not finite; a value that at twice the precision rounds to another double. YES otherwise. (docs/theory/oracle_energies.md) */
 cipc_verdict cipc_oracle_evaluate(const cipc_oracle_function *function, const double *x, const double *fields, double *value, double *g, double *H);
 
 /* Value and first two derivatives of "barrier" (of D; fields Dhat), "strain_limit_barrier" (of sigma; s, shat), "friction_mollifier" (of y; e), each rounded
- * from about 60 digits. INDETERMINATE: infeasible, not finite, no such function. */
+ * from about 60 digits. INDETERMINATE: infeasible, not finite, no such function; so near a switch that the differences contradict one another. */
 cipc_verdict cipc_oracle_scalar(const char *name, double x, const double *fields, double f[3]);
 
 #endif

@@ -40,7 +40,10 @@ mpfr_ptr oracle_edge_edge_mollifier(oracle_reals *s, const mpfr_t *x, const doub
     oracle_real3 a = oracle_difference(s, x, 1, 0), b = oracle_difference(s, x, 3, 2);
     mpfr_ptr ab = oracle_dot(s, a, b), c = oracle_sub(s, oracle_mul(s, oracle_dot(s, a, a), oracle_dot(s, b, b)), oracle_mul(s, ab, ab));
     mpfr_ptr ratio = oracle_div(s, c, oracle_number(s, f[0]));
-    if (!(f[0] > 0) || mpfr_cmp_ui(ratio, 1) >= 0) return oracle_number(s, 1);
+    if (!(f[0] > 0)) return oracle_number(s, 1);
+    bool below = mpfr_cmp_ui(ratio, 1) < 0;
+    s->sides |= below ? ORACLE_BEND_BELOW : ORACLE_BEND_ABOVE;
+    if (!below) return oracle_number(s, 1);
     return oracle_mul(s, ratio, oracle_sub(s, oracle_number(s, 2), ratio));
 }
 

@@ -68,11 +68,16 @@ mpfr_ptr oracle_strain_limit(oracle_reals *s, const mpfr_t *x, const double *f)
     return oracle_scaled(s, f[6], oracle_scaled(s, f[3], oracle_add(s, first, second)));
 }
 
+/* Beyond this angle, rad, a hinge is on one side of the jump from pi to -pi: anything between 0 and pi serves. */
+static const double NEAR_FOLDED = 3;
+
 /* stiffness, rest_angle: k (theta - thetabar)^2. theta from the heights of v2 and v3 over the edge, not from normals: with e along the edge, h2 and h3 the parts
  * of v2 and v3 across it, the dihedral angle is that from h2 to -h3 about e. */
 mpfr_ptr oracle_hinge_bending(oracle_reals *s, const mpfr_t *x, const double *f)
 {
     oracle_real3 e = oracle_difference(s, x, 1, 0), a = oracle_difference(s, x, 2, 0), b = oracle_difference(s, x, 3, 0), h2, h3;
+    oracle_real3 area2 = oracle_cross(s, e, a), area3 = oracle_cross(s, e, b);
+    if (mpfr_zero_p(oracle_dot(s, area2, area2)) || mpfr_zero_p(oracle_dot(s, area3, area3))) return NULL; /* no normal */
     mpfr_ptr ee = oracle_dot(s, e, e), ta = oracle_div(s, oracle_dot(s, a, e), ee), tb = oracle_div(s, oracle_dot(s, b, e), ee);
     for (int k = 0; k < 3; k++) {
         h2.c[k] = oracle_sub(s, a.c[k], oracle_mul(s, ta, e.c[k]));
@@ -81,6 +86,8 @@ mpfr_ptr oracle_hinge_bending(oracle_reals *s, const mpfr_t *x, const double *f)
     mpfr_ptr sine = oracle_div(s, oracle_dot(s, e, oracle_cross(s, h2, h3)), oracle_sqrt(s, ee)), cosine = oracle_dot(s, h2, h3);
     mpfr_ptr theta = oracle_number(s, 0);
     mpfr_atan2(theta, sine, cosine, MPFR_RNDN);
+    if (mpfr_cmp_d(theta, NEAR_FOLDED) > 0) s->sides |= ORACLE_JUMP_ABOVE;
+    if (mpfr_cmp_d(theta, -NEAR_FOLDED) < 0) s->sides |= ORACLE_JUMP_BELOW;
     mpfr_ptr bent = oracle_sub(s, theta, oracle_number(s, f[1]));
     return oracle_scaled(s, f[0], oracle_mul(s, bent, bent));
 }

@@ -59,13 +59,22 @@ const cipc_oracle_function *cipc_oracle_function_find(const char *name)
 
 enum { PRECISION = 512, STEP_BITS = 100, MOST = 12 };
 
+/* How far a difference may be from one that takes the same derivative along a diagonal: what is left of the third and fourth derivatives is this share of the
+ * largest entry at most, a hundred times below the roundoff of double... */
+static const double SMOOTH = 0x1p-60;
+/* ... and where the derivative itself vanishes, these of what it is made of: above the roundings of 512 bits, which steps of 2^-100 magnify to 2^-412 in
+ * first and 2^-312 in second differences. */
+static const double NOISE_FIRST = 0x1p-150, NOISE_SECOND = 0x1p-200;
+
 typedef struct evaluation {
     formula value;
     int n;
+    double size; /* the step is 2^-100 of it */
     const double *fields;
     oracle_reals store;
     mpfr_t x[MOST], h, center, ahead[MOST], behind[MOST], corner[4], result;
     bool feasible;
+    double first_off, second_off; /* largest disagreement with differences along diagonals */
 } evaluation;
 
 static void evaluation_init(evaluation *e, const entry *t, const double *x, const double *fields, mpfr_prec_t precision)
@@ -75,13 +84,12 @@ static void evaluation_init(evaluation *e, const entry *t, const double *x, cons
     for (int i = 0; i < MOST; i++) mpfr_inits2(precision, e->x[i], e->ahead[i], e->behind[i], (mpfr_ptr)NULL);
     for (int i = 0; i < 4; i++) mpfr_init2(e->corner[i], precision);
     mpfr_inits2(precision, e->h, e->center, e->result, (mpfr_ptr)NULL);
-    double size = 0;
     for (int i = 0; i < e->n; i++) {
         mpfr_set_d(e->x[i], x[i], MPFR_RNDN);
-        size = fmax(size, fabs(x[i] - x[i % 3]));
+        e->size = fmax(e->size, fabs(x[i] - x[i % 3]));
     }
-    if (size == 0) size = 1; /* one node, or all in one place */
-    mpfr_set_ui_2exp(e->h, 1, ilogb(size) - STEP_BITS, MPFR_RNDN);
+    if (e->size == 0) e->size = 1; /* one node, or all in one place */
+    mpfr_set_ui_2exp(e->h, 1, ilogb(e->size) - STEP_BITS, MPFR_RNDN);
 }
 
 static void evaluation_clear(evaluation *e)
@@ -100,59 +108,131 @@ static void evaluate(evaluation *e, mpfr_t r)
     if (e->feasible) mpfr_set(r, value, MPFR_RNDN);
 }
 
-/* r := f(x + si h e_i + sj h e_j); j < 0: only i. */
-static void evaluate_at(evaluation *e, mpfr_t r, int i, int si, int j, int sj)
+/* x_i += sign h. */
+static void move(evaluation *e, int i, int sign)
 {
-    mpfr_t kept_i, kept_j;
-    mpfr_inits2(e->store.precision, kept_i, kept_j, (mpfr_ptr)NULL);
-    mpfr_set(kept_i, e->x[i], MPFR_RNDN);
-    if (si > 0) mpfr_add(e->x[i], e->x[i], e->h, MPFR_RNDN);
+    if (sign > 0) mpfr_add(e->x[i], e->x[i], e->h, MPFR_RNDN);
     else mpfr_sub(e->x[i], e->x[i], e->h, MPFR_RNDN);
-    if (j >= 0) {
-        mpfr_set(kept_j, e->x[j], MPFR_RNDN);
-        if (sj > 0) mpfr_add(e->x[j], e->x[j], e->h, MPFR_RNDN);
-        else mpfr_sub(e->x[j], e->x[j], e->h, MPFR_RNDN);
-    }
+}
+
+/* r := f(x + sign h e_i). */
+static void evaluate_along(evaluation *e, mpfr_t r, int i, int sign)
+{
+    mpfr_t kept;
+    mpfr_init2(kept, e->store.precision);
+    mpfr_set(kept, e->x[i], MPFR_RNDN);
+    move(e, i, sign);
     evaluate(e, r);
-    if (j >= 0) mpfr_set(e->x[j], kept_j, MPFR_RNDN);
-    mpfr_set(e->x[i], kept_i, MPFR_RNDN);
-    mpfr_clears(kept_i, kept_j, (mpfr_ptr)NULL);
+    mpfr_set(e->x[i], kept, MPFR_RNDN);
+    mpfr_clear(kept);
+}
+
+/* corner[c] := f(x +- h e_i +- h e_j), bit 0 of c for i and bit 1 for j: set is plus. */
+static void evaluate_corners(evaluation *e, int i, int j)
+{
+    mpfr_t kept;
+    mpfr_init2(kept, e->store.precision);
+    for (int c = 0; c < 4; c++) {
+        mpfr_set(kept, e->x[i], MPFR_RNDN);
+        move(e, i, c & 1 ? 1 : -1);
+        evaluate_along(e, e->corner[c], j, c & 2 ? 1 : -1);
+        mpfr_set(e->x[i], kept, MPFR_RNDN);
+    }
+    mpfr_clear(kept);
+}
+
+/* result / h^order as a double. */
+static double quotient(evaluation *e, int order)
+{
+    for (int k = 0; k < order; k++) mpfr_div(e->result, e->result, e->h, MPFR_RNDN);
+    return mpfr_get_d(e->result, MPFR_RNDN);
 }
 
 /* g_i = (f(x + h e_i) - f(x - h e_i)) / (2 h). */
 static void differentiate(evaluation *e, double *g)
 {
     for (int i = 0; i < e->n; i++) {
-        evaluate_at(e, e->ahead[i], i, 1, -1, 0);
-        evaluate_at(e, e->behind[i], i, -1, -1, 0);
+        evaluate_along(e, e->ahead[i], i, 1);
+        evaluate_along(e, e->behind[i], i, -1);
         if (!e->feasible) return;
         mpfr_sub(e->result, e->ahead[i], e->behind[i], MPFR_RNDN);
-        mpfr_div(e->result, e->result, e->h, MPFR_RNDN);
-        if (g != NULL) g[i] = 0.5 * mpfr_get_d(e->result, MPFR_RNDN);
+        g[i] = 0.5 * quotient(e, 1);
     }
 }
 
-/* H_ii = (f(+) - 2 f + f(-)) / h^2; H_ij = (f(++) - f(+-) - f(-+) + f(--)) / (4 h^2). differentiate has been called. */
-static void differentiate_twice(evaluation *e, double *H)
+/* H_ii = (f(+) - 2 f + f(-)) / h^2. */
+static double second_along(evaluation *e, int i)
+{
+    mpfr_add(e->result, e->ahead[i], e->behind[i], MPFR_RNDN);
+    mpfr_sub(e->result, e->result, e->center, MPFR_RNDN);
+    mpfr_sub(e->result, e->result, e->center, MPFR_RNDN);
+    return quotient(e, 2);
+}
+
+/* H_ij = (f(++) - f(+-) - f(-+) + f(--)) / (4 h^2). */
+static double second_mixed(evaluation *e)
+{
+    mpfr_add(e->result, e->corner[0], e->corner[3], MPFR_RNDN);
+    mpfr_sub(e->result, e->result, e->corner[1], MPFR_RNDN);
+    mpfr_sub(e->result, e->result, e->corner[2], MPFR_RNDN);
+    return 0.25 * quotient(e, 2);
+}
+
+/* The corners know derivatives too. f(++) - f(--) = 2 h (g_i + g_j) and f(++) + f(+-) + f(-+) + f(--) - 4 f = 2 h^2 (H_ii + H_jj), but for derivatives of
+ * third and fourth order: how far these are off is how far the differences are not to be trusted. Subtracted before rounding to double. */
+static void compare_diagonals(evaluation *e, int i, int j)
+{
+    mpfr_sub(e->result, e->corner[3], e->corner[0], MPFR_RNDN);
+    mpfr_sub(e->result, e->result, e->ahead[i], MPFR_RNDN);
+    mpfr_add(e->result, e->result, e->behind[i], MPFR_RNDN);
+    mpfr_sub(e->result, e->result, e->ahead[j], MPFR_RNDN);
+    mpfr_add(e->result, e->result, e->behind[j], MPFR_RNDN);
+    e->first_off = fmax(e->first_off, 0.5 * fabs(quotient(e, 1)));
+    mpfr_add(e->result, e->ahead[i], e->behind[i], MPFR_RNDN);
+    mpfr_add(e->result, e->result, e->ahead[j], MPFR_RNDN);
+    mpfr_add(e->result, e->result, e->behind[j], MPFR_RNDN);
+    mpfr_mul_2ui(e->result, e->result, 1, MPFR_RNDN);
+    for (int c = 0; c < 4; c++) mpfr_sub(e->result, e->result, e->corner[c], MPFR_RNDN);
+    mpfr_sub(e->result, e->result, e->center, MPFR_RNDN); /* 2 (f(+0) + f(-0) + f(0+) + f(0-)) - corners - 4 f */
+    mpfr_sub(e->result, e->result, e->center, MPFR_RNDN);
+    mpfr_sub(e->result, e->result, e->center, MPFR_RNDN);
+    mpfr_sub(e->result, e->result, e->center, MPFR_RNDN);
+    e->second_off = fmax(e->second_off, 0.5 * fabs(quotient(e, 2)));
+}
+
+/* H, or NULL: only the comparisons, of neighbouring coordinates; *most: the largest entry seen. differentiate has been called. */
+static void differentiate_twice(evaluation *e, double *H, double *most)
 {
     for (int i = 0; i < e->n && e->feasible; i++) {
-        mpfr_add(e->result, e->ahead[i], e->behind[i], MPFR_RNDN);
-        mpfr_sub(e->result, e->result, e->center, MPFR_RNDN);
-        mpfr_sub(e->result, e->result, e->center, MPFR_RNDN);
-        mpfr_div(e->result, e->result, e->h, MPFR_RNDN);
-        mpfr_div(e->result, e->result, e->h, MPFR_RNDN);
-        H[i * e->n + i] = mpfr_get_d(e->result, MPFR_RNDN);
-        for (int j = 0; j < i && e->feasible; j++) {
-            for (int c = 0; c < 4; c++) evaluate_at(e, e->corner[c], i, c & 1 ? 1 : -1, j, c & 2 ? 1 : -1);
+        double along = second_along(e, i);
+        *most = fmax(*most, fabs(along));
+        if (H != NULL) H[i * e->n + i] = along;
+        for (int j = H != NULL || i == 0 ? 0 : i - 1; j < i; j++) {
+            evaluate_corners(e, i, j);
             if (!e->feasible) return;
-            mpfr_add(e->result, e->corner[0], e->corner[3], MPFR_RNDN);
-            mpfr_sub(e->result, e->result, e->corner[1], MPFR_RNDN);
-            mpfr_sub(e->result, e->result, e->corner[2], MPFR_RNDN);
-            mpfr_div(e->result, e->result, e->h, MPFR_RNDN);
-            mpfr_div(e->result, e->result, e->h, MPFR_RNDN);
-            H[i * e->n + j] = H[j * e->n + i] = 0.25 * mpfr_get_d(e->result, MPFR_RNDN);
+            compare_diagonals(e, i, j);
+            double mixed = second_mixed(e);
+            *most = fmax(*most, fabs(mixed));
+            if (H != NULL) H[i * e->n + j] = H[j * e->n + i] = mixed;
         }
     }
+}
+
+static double largest(const double *v, int n)
+{
+    double most = 0;
+    for (int i = 0; i < n; i++) most = fmax(most, fabs(v[i]));
+    return most;
+}
+
+/* All points of the differences on one side of every switch, and no derivatives of higher order to be seen in them. */
+static bool trusted(const evaluation *e, double value, const double *g, double H_most, bool second)
+{
+    const unsigned jump = ORACLE_JUMP_BELOW | ORACLE_JUMP_ABOVE, bend = ORACLE_BEND_BELOW | ORACLE_BEND_ABOVE;
+    double g_most = largest(g, e->n);
+    if ((e->store.sides & jump) == jump || (second && (e->store.sides & bend) == bend)) return false;
+    if (!(e->first_off <= SMOOTH * g_most + NOISE_FIRST * (fabs(value) / e->size + H_most * e->size))) return false;
+    return !second || e->second_off <= SMOOTH * H_most + NOISE_SECOND * (fabs(value) / e->size + g_most) / e->size;
 }
 
 /* The value at twice the precision rounds to the same double? */
@@ -175,13 +255,16 @@ cipc_verdict cipc_oracle_evaluate(const cipc_oracle_function *function, const do
     for (int i = 0; i < function->field_count; i++)
         if (!isfinite(fields[i])) return CIPC_INDETERMINATE;
     evaluation e;
+    double slopes[MOST] = {0}, H_most = 0;
     evaluation_init(&e, t, x, fields, PRECISION);
     evaluate(&e, e.center);
     double center = e.feasible ? mpfr_get_d(e.center, MPFR_RNDN) : INFINITY;
     if (value != NULL) *value = center;
-    if (e.feasible && (g != NULL || H != NULL)) differentiate(&e, g);
-    if (e.feasible && H != NULL) differentiate_twice(&e, H);
-    bool feasible = e.feasible;
+    bool derivatives = g != NULL || H != NULL;
+    if (e.feasible && derivatives) differentiate(&e, slopes);
+    if (e.feasible && derivatives) differentiate_twice(&e, H, &H_most);
+    if (g != NULL) memcpy(g, slopes, (size_t)e.n * sizeof *g);
+    bool good = e.feasible && (!derivatives || trusted(&e, center, slopes, H_most, H != NULL));
     evaluation_clear(&e);
-    return feasible && confirmed(t, x, fields, center) ? CIPC_YES : CIPC_INDETERMINATE;
+    return good && confirmed(t, x, fields, center) ? CIPC_YES : CIPC_INDETERMINATE;
 }

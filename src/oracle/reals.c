@@ -5,6 +5,7 @@ void oracle_reals_init(oracle_reals *s, mpfr_prec_t precision)
 {
     s->precision = precision;
     s->used = s->made = 0;
+    s->sides = 0;
 }
 
 void oracle_reals_clear(oracle_reals *s)

@@ -6,9 +6,13 @@
 #include <mpfr.h>
 
 enum { ORACLE_REALS_LIMIT = 768 };
+/* The sides of a formula's switches across which derivatives are not to be differenced: a jump of the value; a jump of the second derivative. Formulas note on
+ * which one they are; over all points of a difference only one of each pair may be seen. Switches across which second derivatives are continuous need no note. */
+enum { ORACLE_JUMP_BELOW = 1, ORACLE_JUMP_ABOVE = 2, ORACLE_BEND_BELOW = 4, ORACLE_BEND_ABOVE = 8 };
 typedef struct oracle_reals {
     mpfr_prec_t precision;
     int used, made;
+    unsigned sides; /* seen so far */
     mpfr_t value[ORACLE_REALS_LIMIT];
 } oracle_reals;
 

@@ -42,38 +42,63 @@ typedef struct scalar {
 } scalar;
 static const scalar table[] = {{"barrier", barrier}, {"strain_limit_barrier", strain_limit_barrier}, {"friction_mollifier", friction_mollifier}};
 
+/* value[0..4] := f at x - 2h .. x + 2h. False: infeasible. */
+static bool evaluate(const scalar *t, oracle_reals *s, double x, mpfr_srcptr h, const double *fields, mpfr_t value[5])
+{
+    bool feasible = true;
+    mpfr_t at;
+    mpfr_init2(at, PRECISION);
+    for (int i = 0; i < 5 && feasible; i++) {
+        mpfr_mul_si(at, h, i - 2, MPFR_RNDN);
+        mpfr_add_d(at, at, x, MPFR_RNDN);
+        s->used = 0;
+        mpfr_ptr found = t->value(s, at, fields);
+        feasible = found != NULL && mpfr_number_p(found);
+        if (feasible) mpfr_set(value[i], found, MPFR_RNDN);
+    }
+    mpfr_clear(at);
+    return feasible;
+}
+
+/* First and second derivative by the step k h, k = 1, 2. */
+static void difference(oracle_reals *s, mpfr_srcptr h, mpfr_t value[5], int k, mpfr_ptr d[2])
+{
+    mpfr_ptr step = oracle_scaled(s, k, h), twice = oracle_scaled(s, 2, value[2]);
+    d[0] = oracle_div(s, oracle_sub(s, value[2 + k], value[2 - k]), oracle_scaled(s, 2, step));
+    d[1] = oracle_div(s, oracle_sub(s, oracle_add(s, value[2 + k], value[2 - k]), twice), oracle_mul(s, step, step));
+}
+
+/* Twice the step gives the same to 2^-60: the step is short against whatever happens near x. noise: what f' and f'' are made of, where they vanish. */
+static bool agree(oracle_reals *s, mpfr_srcptr a, mpfr_srcptr b, double noise)
+{
+    double off = fabs(mpfr_get_d(oracle_sub(s, a, b), MPFR_RNDN));
+    return off <= 0x1p-60 * fabs(mpfr_get_d(a, MPFR_RNDN)) + 0x1p-150 * noise;
+}
+
 cipc_verdict cipc_oracle_scalar(const char *name, double x, const double *fields, double f[3])
 {
     const scalar *t = table;
     while (t < table + sizeof table / sizeof table[0] && strcmp(t->name, name) != 0) t++;
     if (t == table + sizeof table / sizeof table[0] || !isfinite(x)) return CIPC_INDETERMINATE;
     oracle_reals s;
-    mpfr_t at, h, value[3], r;
-    bool feasible = true;
+    mpfr_t h, value[5];
+    double size = x != 0 ? fabs(x) : 1;
     oracle_reals_init(&s, PRECISION);
-    mpfr_inits2(PRECISION, at, h, value[0], value[1], value[2], r, (mpfr_ptr)NULL);
-    mpfr_set_ui_2exp(h, 1, (x != 0 ? ilogb(x) : 0) - STEP_BITS, MPFR_RNDN);
-    for (int i = 0; i < 3 && feasible; i++) {
-        mpfr_mul_si(at, h, i - 1, MPFR_RNDN);
-        mpfr_add_d(at, at, x, MPFR_RNDN);
+    mpfr_init2(h, PRECISION);
+    for (int i = 0; i < 5; i++) mpfr_init2(value[i], PRECISION);
+    mpfr_set_ui_2exp(h, 1, ilogb(size) - STEP_BITS, MPFR_RNDN);
+    bool good = evaluate(t, &s, x, h, fields, value);
+    if (good) {
+        mpfr_ptr d[2], wider[2];
         s.used = 0;
-        mpfr_ptr found = t->value(&s, at, fields);
-        feasible = found != NULL;
-        if (feasible) mpfr_set(value[i], found, MPFR_RNDN);
+        difference(&s, h, value, 1, d);
+        difference(&s, h, value, 2, wider);
+        f[0] = mpfr_get_d(value[2], MPFR_RNDN);
+        for (int i = 0; i < 2; i++) f[1 + i] = mpfr_get_d(d[i], MPFR_RNDN);
+        good = agree(&s, d[0], wider[0], fabs(f[0]) / size + fabs(f[2]) * size) && agree(&s, d[1], wider[1], (fabs(f[0]) / size + fabs(f[1])) / size);
     }
-    if (feasible) {
-        f[0] = mpfr_get_d(value[1], MPFR_RNDN);
-        mpfr_sub(r, value[2], value[0], MPFR_RNDN);
-        mpfr_div(r, r, h, MPFR_RNDN);
-        f[1] = 0.5 * mpfr_get_d(r, MPFR_RNDN);
-        mpfr_add(r, value[2], value[0], MPFR_RNDN);
-        mpfr_sub(r, r, value[1], MPFR_RNDN);
-        mpfr_sub(r, r, value[1], MPFR_RNDN);
-        mpfr_div(r, r, h, MPFR_RNDN);
-        mpfr_div(r, r, h, MPFR_RNDN);
-        f[2] = mpfr_get_d(r, MPFR_RNDN);
-    }
-    mpfr_clears(at, h, value[0], value[1], value[2], r, (mpfr_ptr)NULL);
+    for (int i = 0; i < 5; i++) mpfr_clear(value[i]);
+    mpfr_clear(h);
     oracle_reals_clear(&s);
-    return feasible ? CIPC_YES : CIPC_INDETERMINATE;
+    return good ? CIPC_YES : CIPC_INDETERMINATE;
 }

@@ -56,3 +56,13 @@ double verify_hessian_change(const cipc_oracle_function *f, const double *x, con
     most = fmax(most, change_along(f, x, fields, H, size, random));
     return fmax(most, change_along(f, x, fields, H, size, random >> N));
 }
+
+verify_tolerances verify_tolerances_of(double value, const double *g, const double *H, int n, double size, double change)
+{
+    double u = VERIFY_UNIT, slope = verify_largest(g, n), bend = verify_largest(H, n * n);
+    return (verify_tolerances){
+        .value = VERIFY_ROUNDINGS * u * (fabs(value) + slope * size + u * bend * size * size),
+        .gradient = VERIFY_ROUNDINGS * u * (slope + bend * size),
+        .hessian = VERIFY_ROUNDINGS * u * (bend + change),
+    };
+}

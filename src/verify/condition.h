@@ -22,4 +22,11 @@ double verify_over(double error, double tolerance);
 double verify_hessian_change(const cipc_oracle_function *function, const double *x, const double *fields, const double *g, const double *H, double size,
                              unsigned long random);
 
+/* Absolute tolerances (1)-(3) of docs/theory/tolerances.md for value, gradient and Hessian of a function with these derivatives. change: |dH| S of above;
+ * the Hessian's is INFINITY if that is. */
+typedef struct verify_tolerances {
+    double value, gradient, hessian;
+} verify_tolerances;
+verify_tolerances verify_tolerances_of(double value, const double *g, const double *H, int n, double size, double change);
+
 #endif

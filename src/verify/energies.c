@@ -46,18 +46,16 @@ static bool look_up(const cipc_oracle_function *f, gsl_rng *rng, const double *x
 
 static double ulp(double error, double scale) { return scale > 0 ? error / (2 * VERIFY_UNIT * scale) : error > 0 ? INFINITY : 0; }
 
-/* (1)-(3): |v| + |g| S + |H| S^2; |g| + |H| S + |dH| S; |H| + |dH|. */
 static void compare(const reference *r, const double *got_value, const double *g, const double *H, long sample, verify_row *row, const cipc_query *query)
 {
-    double g_most = verify_largest(r->g, r->n), H_most = verify_largest(r->H, r->n * r->n), S = r->size;
     double value_error = verify_largest_error(got_value, &r->value, 1), g_error = verify_largest_error(g, r->g, r->n), H_error = verify_largest_error(H, r->H, r->n * r->n);
-    double value_scale = fabs(r->value) + g_most * S + H_most * S * S, g_scale = g_most + H_most * S, H_scale = H_most + r->change;
-    verify_measure(row, 0, verify_over(value_error, VERIFY_ROUNDINGS * VERIFY_UNIT * value_scale), sample, query);
-    verify_measure(row, 1, verify_over(g_error, VERIFY_ROUNDINGS * VERIFY_UNIT * g_scale), sample, query);
-    verify_measure(row, 2, verify_over(H_error, VERIFY_ROUNDINGS * VERIFY_UNIT * H_scale), sample, query);
+    verify_tolerances tolerance = verify_tolerances_of(r->value, r->g, r->H, r->n, r->size, r->change);
+    verify_measure(row, 0, verify_over(value_error, tolerance.value), sample, query);
+    verify_measure(row, 1, verify_over(g_error, tolerance.gradient), sample, query);
+    verify_measure(row, 2, verify_over(H_error, tolerance.hessian), sample, query);
     verify_measure(row, 3, ulp(value_error, fabs(r->value)), sample, query);
-    verify_measure(row, 4, ulp(g_error, g_most), sample, query);
-    verify_measure(row, 5, ulp(H_error, H_most), sample, query);
+    verify_measure(row, 4, ulp(g_error, verify_largest(r->g, r->n)), sample, query);
+    verify_measure(row, 5, ulp(H_error, verify_largest(r->H, r->n * r->n)), sample, query);
 }
 
 static void sample(int index, gsl_rng *rng, long number, verify_row *row, const void *context)

@@ -42,17 +42,16 @@ static double size_of(const double *x, int n)
 
 /* Gradient and Hessian of an oracle function with tolerances (2), (3) of docs/theory/tolerances.md; the Hessian only where doubles determine it. */
 typedef struct derivatives {
-    double value, g[12], H[144], g_tolerance, H_tolerance; /* H_tolerance INFINITY: not determined */
+    double value, g[12], H[144];
+    verify_tolerances tolerance; /* the Hessian's INFINITY: not determined */
 } derivatives;
 
 static bool differentiate(const cipc_oracle_function *f, const double *x, const double *fields, derivatives *d)
 {
     int n = 3 * f->nodes;
-    double size = size_of(x, n), u = VERIFY_ROUNDINGS * VERIFY_UNIT;
+    double size = size_of(x, n);
     if (cipc_oracle_evaluate(f, x, fields, &d->value, d->g, d->H) != CIPC_YES) return false;
-    double g_most = verify_largest(d->g, n), H_most = verify_largest(d->H, n * n);
-    d->g_tolerance = u * (g_most + H_most * size);
-    d->H_tolerance = u * (H_most + verify_hessian_change(f, x, fields, d->g, d->H, size, 0x5a3c96));
+    d->tolerance = verify_tolerances_of(d->value, d->g, d->H, n, size, verify_hessian_change(f, x, fields, d->g, d->H, size, 0x5a3c96));
     return true;
 }
 
@@ -79,8 +78,8 @@ static bool distance_truth(const cipc_query *q, cipc_pair_kind kind, json_t *wan
         for (int i = 0; i < feature.count; i++) memcpy(y + 3 * i, q->x + 3 * feature.local[i], 3 * sizeof *y);
         if (!differentiate(cipc_oracle_function_find(names[feature.kind]), y, NULL, &d)) return good;
         verify_scatter(&feature, n, d.g, d.H, g, H);
-        put_numbers(want, "gradient", g, n, d.g_tolerance, &good);
-        if (isfinite(d.H_tolerance)) put_numbers(want, "hessian", H, n * n, d.H_tolerance, &good);
+        put_numbers(want, "gradient", g, n, d.tolerance.gradient, &good);
+        if (isfinite(d.tolerance.hessian)) put_numbers(want, "hessian", H, n * n, d.tolerance.hessian, &good);
     }
     return good;
 }
@@ -89,14 +88,12 @@ static bool energy_truth(const cipc_query *q, json_t *want)
 {
     const cipc_oracle_function *f = cipc_oracle_function_find(q->fn + 7);
     int n = 3 * f->nodes;
-    double size = size_of(q->x, n);
     derivatives d;
     bool good = true;
     if (!differentiate(f, q->x, q->params, &d)) return false;
-    double tolerance = VERIFY_ROUNDINGS * VERIFY_UNIT * (fabs(d.value) + verify_largest(d.g, n) * size + verify_largest(d.H, n * n) * size * size);
-    put_numbers(want, "value", &d.value, 1, tolerance, &good);
-    put_numbers(want, "gradient", d.g, n, d.g_tolerance, &good);
-    if (isfinite(d.H_tolerance)) put_numbers(want, "hessian", d.H, n * n, d.H_tolerance, &good);
+    put_numbers(want, "value", &d.value, 1, d.tolerance.value, &good);
+    put_numbers(want, "gradient", d.g, n, d.tolerance.gradient, &good);
+    if (isfinite(d.tolerance.hessian)) put_numbers(want, "hessian", d.H, n * n, d.tolerance.hessian, &good);
     return good;
 }
 
