@@ -8,11 +8,13 @@
 #include "cli/conformance.h"
 #include "cli/interrupt.h"
 #include "verify/conformance.h"
+#include "verify/json_lines.h"
 
-enum { KEY_COUNT = 0x4001, KEY_SEED, KEY_LIST, KEY_PRECISION, MOST_TRIES = 100 };
+enum { KEY_COUNT = 0x4001, KEY_SEED, KEY_LIST, KEY_PRECISION, KEY_FROM, MOST_TRIES = 100 };
 
 typedef struct request {
     const char *fn; /* NULL: all */
+    const char *from; /* queries to answer instead of drawing any */
     bool named, list, single;
     long count, seed;
 } request;
@@ -24,6 +26,7 @@ static cipc_status take(void *input, int key, char *value, cipc_error *error)
     case KEY_COUNT: return cipc_parse_integer("--count", value, 1, 100000000, &r->count, error);
     case KEY_SEED: return cipc_parse_integer("--seed", value, 0, LONG_MAX, &r->seed, error);
     case KEY_LIST: r->list = true; return CIPC_OK;
+    case KEY_FROM: r->from = value; return CIPC_OK;
     case KEY_PRECISION: return cipc_take_precision(value, &r->single, error);
     default:
         if (r->named) return cipc_fail(error, CIPC_E_USAGE, "vectors", "surplus argument '%s'", value);
@@ -36,18 +39,20 @@ static const struct argp_option options[] = {
     {"count", KEY_COUNT, "N", 0, "Vectors per function (default 100)", 0},
     {"seed", KEY_SEED, "S", 0, "Seed (default 1); the same seed gives the same vectors", 0},
     {"list", KEY_LIST, NULL, 0, "List the functions with their levels, and leave", 0},
+    {"from", KEY_FROM, "FILE", 0, "Take the queries of FILE (-: standard input) instead of drawing any, and put the right answers in; other fields stay", 0},
     {"precision", KEY_PRECISION, "binary64|binary32", 0, "binary32: inputs that are exactly floats (default binary64)", 0},
     {0},
 };
 static const cipc_arguments arguments = {
     "cipc vectors",
     options,
-    "FUNCTION|all",
+    "[FUNCTION|all]",
     "Write random and adversarial inputs of a function with right answers from exact and 512-bit arithmetic to standard output: JSON lines that "
     "any port can read."
     "\vExamples:\n"
     "  cipc vectors distance2_edge_edge --count 1000 | your-port | cipc judge\n"
     "  cipc vectors all | cipc eval | cipc judge\n"
+    "  cipc vectors --from my-queries.jsonl > my-vectors.jsonl\n"
     "docs/conformance.md has every field.",
     take,
 };
@@ -90,6 +95,43 @@ static cipc_status write_all(const request *r, cipc_error *error)
     return status;
 }
 
+/* The right answer to one query that somebody else has written. */
+static cipc_status answer_line(const verify_lines *lines, json_t *object, cipc_error *error)
+{
+    long id;
+    const char *fn;
+    cipc_query query;
+    cipc_status status = verify_line_head(lines, object, &id, &fn, error);
+    if (status == CIPC_OK) status = verify_query_parse(object, fn, lines->place, &query, error);
+    if (status != CIPC_OK) return status;
+    json_t *want = verify_truth(&query);
+    if (want == NULL) return cipc_fail(error, CIPC_E_INDETERMINATE, lines->place, "id %ld: no answer is known: the function is not defined there", id);
+    bool good = true;
+    json_object_del(object, "want"); /* the new one comes last */
+    cipc_json_put(object, "want", want, &good);
+    return good ? cipc_write_line(object, error) : out_of_memory(fn, error);
+}
+
+static cipc_status answer_file(const char *name, cipc_error *error)
+{
+    FILE *stream = strcmp(name, "-") == 0 ? stdin : fopen(name, "r");
+    if (stream == NULL) return cipc_fail(error, CIPC_E_MISSING_FILE, name, "cannot be opened");
+    verify_lines lines;
+    json_t *object = NULL;
+    verify_lines_init(&lines, stream, stream == stdin ? "standard input" : name);
+    cipc_status status = verify_lines_next(&lines, &object, error);
+    while (status == CIPC_OK && object != NULL) {
+        status = answer_line(&lines, object, error);
+        json_decref(object);
+        object = NULL;
+        if (status == CIPC_OK) status = verify_lines_next(&lines, &object, error);
+    }
+    if (status == CIPC_OK && lines.number == 0) status = cipc_fail(error, CIPC_E_BAD_QUERY, lines.name, "is empty: there is no query");
+    verify_lines_free(&lines);
+    if (stream != stdin) fclose(stream);
+    return status;
+}
+
 int cipc_command_vectors(int argc, char **argv)
 {
     request r = {.count = 100, .seed = 1};
@@ -101,11 +143,17 @@ int cipc_command_vectors(int argc, char **argv)
         for (int f = 0; f < verify_function_count(); f++) printf("%d  %s\n", verify_function_level(verify_function_at(f)), verify_function_at(f));
         return 0;
     }
-    if (!r.named) {
+    if (r.from != NULL && r.named) {
+        cipc_fail(&error, CIPC_E_USAGE, "vectors", "a function and --from at once");
+        cipc_fail_remedy(&error, "the queries of the file name their functions");
+        return cipc_say(&error);
+    }
+    if (!r.named && r.from == NULL) {
         cipc_fail(&error, CIPC_E_USAGE, "vectors", "no function is named");
         cipc_fail_remedy(&error, "name one of cipc vectors --list, or all");
         return cipc_say(&error);
     }
     cipc_interrupt_hold();
-    return write_all(&r, &error) == CIPC_OK ? 0 : cipc_say(&error);
+    const cipc_status status = r.from != NULL ? answer_file(r.from, &error) : write_all(&r, &error);
+    return status == CIPC_OK ? 0 : cipc_say(&error);
 }
