@@ -2,6 +2,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "implicit/psd_projection.h"
 #include "verify/derivative_check.h"
 #include "verify/energies.h"
 #include "verify/projection_check.h"
@@ -19,21 +20,20 @@ static void describe(int index, verify_row *row)
 }
 
 /* The Hessian and what assembly makes of it: is that the nearest positive semi-definite matrix? */
-static void check_projection(const cipc_energy *energy, const verify_energy_subject *subject, const double *x, const void *params, long number, verify_row *row,
-                             const cipc_query *query)
+static void check_projection(const cipc_energy *energy, const double *x, const void *params, long number, verify_row *row, const cipc_query *query)
 {
     int n = 3 * energy->nodes;
     double H[N * N], P[N * N];
     energy->hessian(x, params, H);
     memcpy(P, H, (size_t)(n * n) * sizeof *H);
-    if (!subject->project(energy->nodes, P, (energy->invariances & CIPC_INVARIANT_TRANSLATION) != 0)) verify_count(row, energy->branch_count + 1, number, query);
+    if (!cipc_psd_project(energy->nodes, P, (energy->invariances & CIPC_INVARIANT_TRANSLATION) != 0)) verify_count(row, energy->branch_count + 1, number, query);
     verify_measure(row, 2, verify_projection_error(n, H, P), number, query);
 }
 
 static void sample(int index, gsl_rng *rng, long number, verify_row *row, const void *context)
 {
     const verify_energy_subject *subject = context;
-    const cipc_energy *energy = verify_energy_under_test(subject, index);
+    const cipc_energy *energy = subject->entry((cipc_energy_id)index);
     double x[N];
     verify_params params;
     cipc_query query;
@@ -43,7 +43,8 @@ static void sample(int index, gsl_rng *rng, long number, verify_row *row, const 
     if (!verify_derivatives_at(energy, x, &params, &report)) verify_count(row, energy->branch_count, number, &query);
     verify_measure(row, 0, report.gradient_error, number, &query);
     verify_measure(row, 1, report.hessian_error, number, &query);
-    check_projection(energy, subject, x, &params, number, row, &query);
+    check_projection(energy, x, &params, number, row, &query);
 }
 
-const verify_campaign verify_derivatives = {"derivatives", CIPC_ENERGY_COUNT, describe, sample, &verify_energies_of_the_solver, 0.02};
+static const verify_energy_subject subject = {cipc_energy_entry};
+const verify_campaign verify_derivatives = {"derivatives", CIPC_ENERGY_COUNT, describe, sample, &subject, 0.02};

@@ -60,7 +60,8 @@ static void compare(const reference *r, const double *got_value, const double *g
 
 static void sample(int index, gsl_rng *rng, long number, verify_row *row, const void *context)
 {
-    const cipc_energy *energy = verify_energy_under_test(context, index);
+    const verify_energy_subject *subject = context;
+    const cipc_energy *energy = subject->entry((cipc_energy_id)index);
     double x[N], value, g[N], H[N * N];
     verify_params params;
     cipc_query query;
@@ -80,4 +81,5 @@ static void sample(int index, gsl_rng *rng, long number, verify_row *row, const 
     compare(&r, &value, g, H, number, row, &query);
 }
 
-const verify_campaign verify_energies = {"energies", CIPC_ENERGY_COUNT, describe, sample, &verify_energies_of_the_solver, 0.02};
+static const verify_energy_subject subject = {cipc_energy_entry};
+const verify_campaign verify_energies = {"energies", CIPC_ENERGY_COUNT, describe, sample, &subject, 0.02};

@@ -4,13 +4,10 @@
 
 #include "verify/campaign.h"
 
-/* The context of both campaigns: what is under test. A test can put wrong ones in. */
+/* The context of both campaigns: entry(index) is the energy under test; a test can put a wrong one in. */
 typedef struct verify_energy_subject {
-    const cipc_energy *energy; /* NULL: each row's own entry of the registry */
-    bool (*project)(int nodes, double *H, bool translation_invariant); /* "derivatives" only */
+    const cipc_energy *(*entry)(cipc_energy_id id);
 } verify_energy_subject;
-extern const verify_energy_subject verify_energies_of_the_solver;
-const cipc_energy *verify_energy_under_test(const verify_energy_subject *subject, int row);
 
 enum { VERIFY_PARAMS_SIZE = 512, VERIFY_COORDINATES = 12 };
 typedef union verify_params {

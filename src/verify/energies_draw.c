@@ -2,19 +2,11 @@
 #include <stdio.h>
 #include <string.h>
 
-#include "implicit/psd_projection.h"
 #include "verify/energies.h"
 #include "verify/query.h"
 
 /* Samples are aimed at the branches in turn; a rounding may put some on a neighbour, but none may lose more than half. */
 static const double LEAST_OF_AIMED = 0.5;
-
-const verify_energy_subject verify_energies_of_the_solver = {NULL, cipc_psd_project};
-
-const cipc_energy *verify_energy_under_test(const verify_energy_subject *subject, int row)
-{
-    return subject->energy != NULL ? subject->energy : cipc_energy_entry((cipc_energy_id)row);
-}
 
 void verify_describe_branches(verify_row *row, const cipc_energy *energy)
 {

@@ -9,8 +9,8 @@
 #include "verify/condition.h"
 
 enum { MOST = 12 };
-/* (7): the solver's eigenvalues, LAPACK's, and putting P together: 40 n^2 u |H| each (docs/theory/assembly.md). */
-static const double PROJECTION_ROUNDINGS = 120;
+/* (7): n u |H| each for the solver's eigenvectors, for LAPACK's eigenvalues, for the sum of n products that P is, and for |H| itself; twice that. */
+static const double PROJECTION_ROUNDINGS = 8;
 
 /* Least eigenvalue by LAPACK, which the solver does not use for this; NAN if it finds none. */
 static double least_eigenvalue(int n, const double *A)
@@ -43,5 +43,5 @@ double verify_projection_error(int n, const double *H, const double *P)
         for (int j = 0; j < i; j++) asymmetry = fmax(asymmetry, fabs(p[i * n + j] - p[j * n + i]));
     double least = fmin(least_eigenvalue(n, p), least_eigenvalue(n, difference));
     if (isnan(least)) return INFINITY;
-    return fmax(fmax(-least, fabs(inner)), asymmetry) / (PROJECTION_ROUNDINGS * n * n * VERIFY_UNIT);
+    return fmax(fmax(-least, fabs(inner)), asymmetry) / (PROJECTION_ROUNDINGS * n * VERIFY_UNIT);
 }
