@@ -56,7 +56,7 @@ TEST_SUPPORT := $(BUILD)/obj/libsupport.a
 TESTS := $(patsubst %.c,$(BUILD)/%,$(TEST_SOURCES))
 
 # ---- Targets for people -----------------------------------------------------------------------------------------------------
-.PHONY: help all deps deps-all demo check coverage sanitize valgrind lint bench format install uninstall clean
+.PHONY: help all deps deps-all demo check verify mutants coverage sanitize valgrind lint bench format install uninstall clean
 .DEFAULT_GOAL := all
 
 # A plain `make check` uses every core; an explicit -j is respected.
@@ -85,6 +85,19 @@ demo: ## install what is missing, build, run the drape scene into build/demo and
 check: ## install what is missing, build, run every test; the last line is "N passed, N failed, N skipped"
 	@ci/install-deps
 	$(SUBMAKE) verdict
+
+# The campaigns in the test run take about a minute of two cores, this some ten; SAMPLES=, SEED= for more and others.
+SAMPLES ?= 1000000
+SEED    ?= 1
+PUBLIC_QUERIES := $(wildcard ../shared/data/ccd)
+verify: ## the functions of the solver against exact and MPFR arithmetic: a large campaign (SAMPLES=1000000), report in build/verify.json
+	$(SUBMAKE) all
+	$(BUILD)/cipc verify all --samples $(SAMPLES) --seed $(SEED) --threads $(shell nproc 2>/dev/null || echo 1) --json $(BUILD)/verify.json \
+	    --worst $(BUILD)/verify-worst.jsonl $(if $(PUBLIC_QUERIES),--data $(PUBLIC_QUERIES))
+
+mutants: ## plant every fault of ci/mutants.list and see the named check reject it; docs/mutants.md
+	$(SUBMAKE) all tests
+	@ci/mutants --build $(BUILD)
 
 COVERAGE_FLAGS := --coverage -fprofile-update=atomic
 coverage: ## line coverage per folder of src/; fails below 95 % in geometry, energy, contact and implicit (build/coverage)
@@ -164,7 +177,8 @@ tests: $(TESTS)
 
 # Scripts that pass or fail as a whole; they count as one test each.
 CHECKS := 'ci/check-layers' 'ci/check-layers --self-test' 'ci/check-symbols $(BUILD)' 'ci/check-symbols --self-test' \
-    $(if $(PROGRAM),'ci/check-docs $(BUILD)') 'ci/check-docs --self-test' 'ci/check-install $(BUILD)' 'ci/run-tests --self-test'
+    $(if $(PROGRAM),'ci/check-docs $(BUILD)') 'ci/check-docs --self-test' 'ci/check-install $(BUILD)' 'ci/run-tests --self-test' \
+    'tests/conformance/check $(BUILD)' 'tests/conformance/check-verify $(BUILD)' 'ci/mutants --self-test' 'ci/mutants --fast --build $(BUILD)'
 
 verdict: all tests
 	@CIPC=$(BUILD)/cipc ci/run-tests $(BUILD)/tests $(CHECKS) $(TESTS)

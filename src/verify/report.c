@@ -170,10 +170,11 @@ json_t *verify_report_json(const verify_report *report, json_t *versions)
     return good ? object : NULL;
 }
 
-static bool write_line(const cipc_query *query, long sample, const char *campaign, const char *row, const char *what, double value, FILE *stream)
+static bool write_line(const cipc_query *query, long id, long sample, const char *campaign, const char *row, const char *what, double value, FILE *stream)
 {
-    json_t *line = cipc_query_json(query, sample);
+    json_t *line = cipc_query_json(query, id);
     bool good = line != NULL;
+    cipc_json_put(line, "sample", json_integer(sample), &good);
     cipc_json_put(line, "campaign", json_string(campaign), &good);
     cipc_json_put(line, "row", json_string(row), &good);
     cipc_json_put(line, "because", json_string(what), &good);
@@ -186,17 +187,18 @@ static bool write_line(const cipc_query *query, long sample, const char *campaig
 cipc_status verify_report_worst(const verify_report *report, FILE *stream, cipc_error *error)
 {
     bool good = true;
+    long id = 0;
     for (int c = 0; c < report->campaign_count; c++) {
         const char *campaign = report->campaigns[c].name;
         for (int r = 0; r < report->campaigns[c].row_count; r++) {
             const verify_row *row = &report->campaigns[c].rows[r];
             for (int i = 0; i < row->maximum_count; i++) {
                 const verify_maximum *m = &row->maxima[i];
-                if (m->has_query) good = good && write_line(&m->query, m->sample, campaign, row->name, m->name, m->value, stream);
+                if (m->has_query) good = good && write_line(&m->query, ++id, m->sample, campaign, row->name, m->name, m->value, stream);
             }
             for (int i = 0; i < row->counter_count; i++) {
                 const verify_counter *k = &row->counters[i];
-                if (k->has_query) good = good && write_line(&k->query, k->sample, campaign, row->name, k->name, (double)k->count, stream);
+                if (k->has_query) good = good && write_line(&k->query, ++id, k->sample, campaign, row->name, k->name, (double)k->count, stream);
             }
         }
     }
