@@ -15,7 +15,7 @@ static const unsigned long SEED = 20261127;
 static int id_of(const char *name)
 {
     for (int i = 0; i < CIPC_ENERGY_COUNT; i++)
-        if (strcmp(cipc_energy_entry((cipc_energy_id)i)->name, name) == 0) return (cipc_energy_id)i;
+        if (strcmp(cipc_energy_entry((cipc_energy_id)i)->name, name) == 0) return i;
     fail_msg("no energy %s", name);
     return -1;
 }
