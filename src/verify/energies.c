@@ -82,4 +82,4 @@ static void sample(int index, gsl_rng *rng, long number, verify_row *row, const 
 }
 
 static const verify_energy_subject subject = {cipc_energy_entry};
-const verify_campaign verify_energies = {"energies", CIPC_ENERGY_COUNT, describe, sample, &subject, 0.02};
+const verify_campaign verify_energies = {"energies", CIPC_ENERGY_COUNT, describe, sample, &subject, 0.01};
