@@ -62,8 +62,8 @@ enum { PRECISION = 512, STEP_BITS = 100, MOST = 12 };
 /* How far a difference may be from one that takes the same derivative along a diagonal: what is left of the third and fourth derivatives is this share of the
  * largest entry at most, a hundred times below the roundoff of double... */
 static const double SMOOTH = 0x1p-60;
-/* ... and where the derivative itself vanishes, these of what it is made of: far below u |H| S, which a gradient is known to at best, and above the roundings of 512 bits, which steps of 2^-100 magnify to 2^-412 in
- * first and 2^-312 in second differences. */
+/* ... and where the derivative itself vanishes, these of what it is made of: far below u |H| S, better than which no gradient is known, and above the roundings
+ * of 512 bits, which steps of 2^-100 magnify to 2^-412 in first and 2^-312 in second differences. */
 static const double NOISE_FIRST = 0x1p-120, NOISE_SECOND = 0x1p-200;
 
 typedef struct evaluation {
