@@ -20,7 +20,7 @@ static bool swept_apart(const double y[12], const double q[12], int first, doubl
             hi[side] = max2(hi[side], max2(from, to));
             size = max2(size, max2(fabs(from), fabs(to)));
         }
-        double slack = xi + 0x1p-50 * (size + xi);
+        double slack = xi + 0x1p-49 * (size + xi);
         if (lo[0] - hi[1] > slack || lo[1] - hi[0] > slack) return true;
     }
     return false;

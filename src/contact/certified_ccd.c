@@ -2,6 +2,7 @@
  * distance, with times rounded down. What it returns holds for the exact path of the given doubles. */
 #include "contact/certified_ccd.h"
 
+#include <float.h>
 #include <math.h>
 
 #include "base/vector.h"
@@ -12,6 +13,8 @@ static const double GOOD_SHARE = 1 - 0x1p-10;
 /* options.refine: go on until the gap is below this share of the target, for at most so many more steps. */
 static const double REFINED_SHARE = 0x1p-30;
 enum { REFINED_STEPS = 256 };
+/* So often MPFR is asked before the march ends where it is: it takes some 10 us each time, and gaps below rounding may ask for millions of steps. */
+enum { MOST_ESCALATIONS = 1000 };
 /* A step along a fixed direction aims at a little more than the gap at which the march ends, so that rounding does not end it there. */
 static const double ALONG_SHARE = 1 + 0x1p-10;
 
@@ -21,7 +24,7 @@ typedef struct advance {
     contact_local_path local;
     double xi, t, gap;
     double n[3]; /* separating direction at t; all 0: none in doubles */
-    int precision;
+    int precision, escalations;
 } advance;
 
 /* a - b and a + b >= 0 rounded down. */
@@ -31,8 +34,15 @@ static double sum_below(double a, double b)
     return error < 0 ? nextafter(s, 0) : s;
 }
 
-/* gap / speed rounded down: two roundings. */
-static double time_below(double gap, double speed) { return gap / speed * (1 - 0x1p-51); }
+/* (12) A positive number known to 4 u of itself, or to 3/2 of the least double where it is out of the normal range, made no larger than the exact one. */
+static double below(double x) { return x >= 0x1p-1000 ? x * (1 - 0x1p-50) : nextafter(nextafter(nextafter(x, 0), 0), 0); }
+
+/* part * gap / l_p rounded down. The quotient comes first: it may be large where the gap is next to nothing. */
+static double time_below(double part, double gap, const contact_local_path *local)
+{
+    double way = local->speed_unit ? ldexp(gap, -local->speed_unit) : gap;
+    return below(part * (way / local->speed));
+}
 
 /* Certified gap at time t; in MPFR if doubles do not suffice to say whether it is at least `wanted`. */
 static contact_decision gap_at(advance *a, double t, double wanted, double *gap)
@@ -43,13 +53,14 @@ static contact_decision gap_at(advance *a, double t, double wanted, double *gap)
     if (bound.lower > 0 && (bound.lower >= GOOD_SHARE * bound.estimate || (wanted > 0 && bound.lower >= wanted))) return CONTACT_CLEAR;
     if (t == 0 && contact_surely_close(&a->local, a->xi)) return CONTACT_CLOSE;
     v3_scale(a->n, 0, a->n);
+    a->escalations++;
     return contact_gap_mpfr(a->path, a->xi, t, gap, &a->precision);
 }
 
 /* (10) Do the boxes of the two primitives, swept over [0, t_max] and grown by xi, stay apart? */
 static bool boxes_apart(const contact_local_path *local, double xi, double t_max)
 {
-    double slack = xi * (1 + 0x1p-50) + 0x1p-48 * local->size;
+    double slack = xi * (1 + 0x1p-50) + 0x1p-48 * local->size + DBL_MIN;
     for (int k = 0; k < 3; k++) {
         double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
         for (int i = 0; i < local->nodes; i++) {
@@ -84,11 +95,11 @@ static cipc_ccd_result march(advance *a, double t_max, double bound, const cipc_
 {
     double target = options->slackness * a->gap, last = options->refine ? REFINED_SHARE * target : target;
     double stop = -1; /* the last time with a gap of the target or more, once it has been passed */
-    int refined = 0;
-    for (int i = 1; i <= options->max_iterations; i++) {
-        double next = sum_below(a->t, time_below((1 - options->slackness) * a->gap, a->local.speed)), along = 0;
-        double floor = options->slackness * a->gap * (1 - 0x1p-50); /* what the step leaves at least */
-        double whole = options->refine ? sum_below(a->t, time_below(a->gap, a->local.speed)) : next;
+    int refined = 0, i;
+    for (i = 1; i <= options->max_iterations && a->escalations <= MOST_ESCALATIONS; i++) {
+        double next = sum_below(a->t, time_below(1 - options->slackness, a->gap, &a->local)), along = 0;
+        double floor = below(options->slackness * a->gap); /* (13) what the step leaves at least */
+        double whole = options->refine ? sum_below(a->t, time_below(1, a->gap, &a->local)) : next;
         double until = separated_until(a, t_max, ALONG_SHARE * last, &along);
         if (whole > t_max || until == t_max) return end(a, CIPC_CCD_FREE, t_max, i);
         if (until > next) {
@@ -105,7 +116,7 @@ static cipc_ccd_result march(advance *a, double t_max, double bound, const cipc_
         a->t = next;
         a->gap = gap;
     }
-    cipc_ccd_result result = end(a, CIPC_CCD_HIT, stop > 0 ? stop : a->t, options->max_iterations);
+    cipc_ccd_result result = end(a, CIPC_CCD_HIT, stop > 0 ? stop : a->t, i - 1);
     result.capped = true;
     return result;
 }
@@ -113,11 +124,11 @@ static cipc_ccd_result march(advance *a, double t_max, double bound, const cipc_
 cipc_ccd_result contact_certified_ccd_until(const cipc_stencil_path *path, double xi, double t_max, double bound, const cipc_ccd_options *options)
 {
     advance a = {.path = path, .xi = xi, .precision = 53};
-    if (!contact_local_path_init(&a.local, path) || !isfinite(xi)) return end(&a, CIPC_CCD_INDETERMINATE, 0, 0);
+    if (!contact_local_path_init(&a.local, path) || !isfinite(xi) || !(t_max >= 0 && t_max <= 1)) return end(&a, CIPC_CCD_INDETERMINATE, 0, 0);
     if (boxes_apart(&a.local, xi, t_max)) return end(&a, CIPC_CCD_FREE, t_max, 0);
     contact_decision start = gap_at(&a, 0, 0, &a.gap);
     if (start == CONTACT_CLOSE) return end(&a, CIPC_CCD_INITIALLY_CLOSE, 0, 0);
-    if (start == CONTACT_UNKNOWN || a.local.speed == INFINITY) return end(&a, CIPC_CCD_INDETERMINATE, 0, 0);
+    if (start == CONTACT_UNKNOWN) return end(&a, CIPC_CCD_INDETERMINATE, 0, 0);
     if (a.local.speed == 0) return end(&a, CIPC_CCD_FREE, t_max, 0);
     return march(&a, t_max, bound, options);
 }

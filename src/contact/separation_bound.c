@@ -24,16 +24,33 @@ static double largest_coordinate(const double *v, int n)
     return most;
 }
 
-/* (7) l_p: the largest displacement on each side, added. */
-static double relative_speed(const contact_local_path *local, double raw)
+/* (7) l_p: the largest displacement on each side, added; `unit` scales the displacements to where their squares neither vanish nor overflow. */
+static double speed_in_unit(const contact_local_path *local, double raw, int unit)
 {
     double side[2] = {0, 0};
     for (int i = 0; i < local->nodes; i++) {
-        double length2 = v3_norm2(local->q + 3 * i);
-        side[i >= local->first] = max2(side[i >= local->first], length2);
+        double q[3];
+        for (int k = 0; k < 3; k++) q[k] = unit ? ldexp(local->q[3 * i + k], -unit) : local->q[3 * i + k];
+        side[i >= local->first] = max2(side[i >= local->first], v3_norm2(q));
     }
-    double speed = (sqrt(side[0]) + sqrt(side[1])) * ROUND_UP + 4 * UNIT * raw;
-    return speed < SMALLEST || speed > LARGEST ? (speed == 0 ? 0 : INFINITY) : speed;
+    return (sqrt(side[0]) + sqrt(side[1])) * ROUND_UP + 4 * UNIT * (unit ? ldexp(raw, -unit) : raw);
+}
+
+static void set_speed(contact_local_path *local, double raw)
+{
+    double most = max2(largest_coordinate(local->q, 3 * local->nodes), raw);
+    local->speed_unit = 0;
+    local->speed = speed_in_unit(local, raw, 0);
+    if (most == 0 || (local->speed > SMALLEST && local->speed < LARGEST)) return;
+    if (!isfinite(most)) { /* a difference has overflowed: no displacement exceeds four times the largest double */
+        local->speed = 1;
+        local->speed_unit = 1028;
+        return;
+    }
+    int unit, more;
+    frexp(most, &unit);
+    local->speed = frexp(speed_in_unit(local, raw, unit), &more); /* in [1/2, 1), as the quotients by it ask */
+    local->speed_unit = unit + more;
 }
 
 bool contact_local_path_init(contact_local_path *local, const cipc_stencil_path *path)
@@ -51,7 +68,7 @@ bool contact_local_path_init(contact_local_path *local, const cipc_stencil_path 
     }
     if (path->to_end) raw = largest_coordinate(moved, n);
     local->size = largest_coordinate(local->y, n) + largest_coordinate(local->q, n) + raw;
-    local->speed = relative_speed(local, raw);
+    set_speed(local, raw);
     double sum = 0; /* NaN or infinity anywhere makes it one */
     for (int i = 0; i < n; i++) sum += 0 * path->x[i] + 0 * path->p[i];
     return sum == 0;
@@ -189,5 +206,5 @@ bool contact_surely_close(const contact_local_path *local, double xi)
         sum[i >= first] += w[i];
     }
     for (int i = 0; i < feature.count; i++) v3_axpy(between, (i < first ? w[i] : -w[i]) / sum[i >= first], stencil + 3 * i);
-    return local->size < LARGEST && v3_norm(between) * ROUND_UP + 32 * UNIT * local->size < xi;
+    return local->size > SMALLEST && local->size < LARGEST && v3_norm(between) * ROUND_UP + 32 * UNIT * local->size < xi;
 }

@@ -10,7 +10,8 @@ typedef struct contact_local_path {
     int nodes, first; /* of the stencil; of its first primitive */
     double y[12], q[12];
     double size;  /* S of eq. (2): largest coordinates of y, q and, to_end, of the displacements, added up */
-    double speed; /* >= l_p, the relative speed of the two primitives at most, rounded up; INFINITY if it cannot be told */
+    double speed;     /* (7) speed * 2^speed_unit >= l_p, the relative speed of the two primitives at most, rounded up; 0: none */
+    int speed_unit;   /* 0 unless l_p is far out in the range of doubles */
 } contact_local_path;
 
 /* False if a number of the path is not finite. */
@@ -34,7 +35,7 @@ double contact_time_along(const contact_local_path *local, const double n[3], do
 bool contact_surely_close(const contact_local_path *local, double xi);
 
 /* The same as contact_gap_at in MPFR, at a precision that makes the bound tight. CLEAR: 0 < *lower <= d - xi, and *lower is at least half of it. CLOSE: d <= xi. UNKNOWN: not
- * decided at the cap of precision, or out of the range of doubles. */
+ * decided: the gap is out of the range of doubles. */
 typedef enum contact_decision { CONTACT_CLEAR, CONTACT_CLOSE, CONTACT_UNKNOWN } contact_decision;
 contact_decision contact_gap_mpfr(const cipc_stencil_path *path, double xi, double t, double *lower, int *precision);
 

@@ -4,8 +4,8 @@
 
 #include "contact/separation_bound.h"
 
-/* From a little more than twice a double's digits on; the last one makes every product of a stencil exact whose coordinates span 2^-600 to 2^600. */
-enum { FIRST_PRECISION = 128, LAST_PRECISION = 16384 };
+/* From a little more than twice a double's digits on; at the last one all sums and products of any stencil of doubles are exact (section 4). */
+enum { FIRST_PRECISION = 128, LAST_PRECISION = 32768 };
 /* (5) with the unit of the precision in use. */
 enum { SEPARATION_ERROR_BITS = 4 };
 

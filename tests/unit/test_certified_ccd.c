@@ -173,6 +173,71 @@ static void test_certificates_hold_where_rounding_matters(void **state)
     assert_true(count_faults(a_little_late, false).unsafe + count_faults(a_little_late, false).missed > 0);
 }
 
+/* The same answers, scaled, from the least doubles to the largest. */
+static void test_scales(void **state)
+{
+    (void)state;
+    static const int scales[] = {-1060, -900, -540, -310, -280, 280, 310, 540, 900, 1015};
+    for (int kind = 0; kind < CIPC_PAIR_KIND_COUNT; kind++) {
+        for (int i = 0; i < 10; i++) {
+            for (int faster = 1; faster <= 8; faster += 7) {
+                cipc_stencil_path path = head_on((cipc_pair_kind)kind, 1);
+                for (int k = 0; k < 12; k++) {
+                    path.x[k] = ldexp(path.x[k], scales[i]);
+                    path.p[k] = ldexp(path.p[k], scales[i] + faster);
+                }
+                double xi = ldexp(1, scales[i] - 2), want = ldexp((1 - SLACKNESS) * 0.75, -faster);
+                cipc_ccd_result r = solve(&path, xi);
+                assert_true(r.outcome == CIPC_CCD_HIT && r.toi <= want && r.toi >= want * (1 - 0x1p-9));
+                r = solve(&path, ldexp(1, scales[i]));
+                assert_true(r.outcome == CIPC_CCD_INITIALLY_CLOSE && r.toi == 0);
+                for (int n = 0; n < 12; n++) path.p[n] = path.x[n] + ldexp(path.p[n], -2); /* the same way by its ends */
+                path.to_end = true;
+                r = solve(&path, xi);
+                assert_true(faster == 1 ? !r.hit : r.outcome == CIPC_CCD_HIT && r.toi <= 4 * want && r.toi >= 4 * want * (1 - 0x1p-9));
+            }
+        }
+    }
+}
+
+static double any_double(gsl_rng *rng, int lowest, int span)
+{
+    return ldexp(gsl_rng_uniform(rng) - 0.5, lowest + (int)(gsl_rng_uniform(rng) * span));
+}
+
+/* Coordinates, displacements and thicknesses of any size at all, mixed in one stencil. */
+static void test_whole_range_of_doubles(void **state)
+{
+    (void)state;
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(rng, 12);
+    int hits = 0, stepped = 0, wanted = 0, capped = 0;
+    for (int i = 0; i < 300; i++) {
+        cipc_stencil_path path = {.kind = (cipc_pair_kind)(i % CIPC_PAIR_KIND_COUNT), .to_end = i % 3 == 0};
+        int span = i % 2 ? 8 : i % 5 ? 120 : 2000, lowest = -1074 + (int)(gsl_rng_uniform(rng) * (2090 - span));
+        for (int k = 0; k < 12; k++) {
+            path.x[k] = any_double(rng, lowest, span);
+            path.p[k] = any_double(rng, lowest, span);
+        }
+        double xi = i % 7 < 3 ? 0 : fabs(any_double(rng, lowest - 8, span));
+        cipc_exact_impact impact = cipc_exact_toi(&path, xi, 1);
+        cipc_ccd_result r = solve(&path, xi);
+        bool close = impact.verdict == CIPC_YES && impact.hi == 0;
+        assert_true(impact.verdict != CIPC_INDETERMINATE);
+        assert_true(close == (r.outcome == CIPC_CCD_INITIALLY_CLOSE));
+        if (close) continue;
+        assert_true(r.hit || impact.verdict == CIPC_NO);
+        assert_int_equal(cipc_exact_path_clear(&path, xi, r.toi), CIPC_YES);
+        capped += r.capped;
+        wanted++;
+        stepped += r.toi > 0;
+        hits += r.hit;
+    }
+    print_message("whole range: %d queries with room, %d with a step, %d hits, %d capped\n", wanted, stepped, hits, capped);
+    assert_true(wanted >= 200 && hits >= 20 && stepped == wanted && capped < wanted / 8);
+    gsl_rng_free(rng);
+}
+
 /* Edges that pass by each other, at a distance in the end or touching: refining tells near misses from contacts, and never is late. */
 static void test_refined(void **state)
 {
@@ -238,7 +303,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_head_on), cmocka_unit_test(test_starts), cmocka_unit_test(test_translation),
         cmocka_unit_test(test_certificates_hold_where_rounding_matters), cmocka_unit_test(test_refined), cmocka_unit_test(test_until),
-        cmocka_unit_test(test_sliding_is_seen_through),
+        cmocka_unit_test(test_sliding_is_seen_through), cmocka_unit_test(test_scales), cmocka_unit_test(test_whole_range_of_doubles),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
