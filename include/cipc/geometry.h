@@ -41,6 +41,13 @@ void cipc_distance2_hessian(cipc_pair_kind kind, const double *x, double *H);
 double cipc_point_edge_distance2(const double x[9]);
 double cipc_point_triangle_distance2(const double x[12]);
 double cipc_edge_edge_distance2(const double x[12]);
+/* Its gradient and Hessian: those of the closest feature's smooth distance, in the places of its nodes, 0 elsewhere. */
+void cipc_point_edge_distance2_gradient(const double x[9], double g[9]);
+void cipc_point_edge_distance2_hessian(const double x[9], double H[81]);
+void cipc_point_triangle_distance2_gradient(const double x[12], double g[12]);
+void cipc_point_triangle_distance2_hessian(const double x[12], double H[144]);
+void cipc_edge_edge_distance2_gradient(const double x[12], double g[12]);
+void cipc_edge_edge_distance2_hessian(const double x[12], double H[144]);
 
 /* Weights w of the closest vector of a feature pair: sum_i w_i x_i = a - b for closest points a (first primitive) and b. Sum of w is 0.
  * Unclamped: the formulas of the feature's own lines and planes (SPEC D.6). */

@@ -41,16 +41,32 @@ void verify_scatter(const cipc_feature *feature, int n, const double *g, const d
 
 static json_t *distance_answer(const cipc_query *q, cipc_pair_kind kind, bool *good)
 {
-    const verify_distance_subject *solver = &verify_distance_of_the_solver;
-    double y[12], g[12], H[144], whole_g[12], whole_H[144];
-    int n = 3 * cipc_pair_nodes(kind);
+    double value, g[12], H[144];
     json_t *got = json_object();
-    cipc_feature feature = solver->feature(kind, q->x);
-    for (int i = 0; i < feature.count; i++) memcpy(y + 3 * i, q->x + 3 * feature.local[i], 3 * sizeof *y);
-    solver->gradient(feature.kind, y, g);
-    solver->hessian(feature.kind, y, H);
-    verify_scatter(&feature, n, g, H, whole_g, whole_H);
-    put_derivatives(got, solver->value(feature.kind, y), whole_g, whole_H, n, good);
+    cipc_feature feature = verify_distance_of_the_solver.feature(kind, q->x);
+    switch (kind) {
+    case CIPC_POINT_POINT:
+        value = cipc_point_point_distance2_value(q->x);
+        cipc_point_point_distance2_gradient(q->x, g);
+        cipc_point_point_distance2_hessian(q->x, H);
+        break;
+    case CIPC_POINT_EDGE:
+        value = cipc_point_edge_distance2(q->x);
+        cipc_point_edge_distance2_gradient(q->x, g);
+        cipc_point_edge_distance2_hessian(q->x, H);
+        break;
+    case CIPC_POINT_TRIANGLE:
+        value = cipc_point_triangle_distance2(q->x);
+        cipc_point_triangle_distance2_gradient(q->x, g);
+        cipc_point_triangle_distance2_hessian(q->x, H);
+        break;
+    default:
+        value = cipc_edge_edge_distance2(q->x);
+        cipc_edge_edge_distance2_gradient(q->x, g);
+        cipc_edge_edge_distance2_hessian(q->x, H);
+        break;
+    }
+    put_derivatives(got, value, g, H, 3 * cipc_pair_nodes(kind), good);
     cipc_json_put(got, "feature", json_string(cipc_feature_name(kind, cipc_feature_index(kind, &feature))), good);
     return got;
 }

@@ -46,7 +46,7 @@ cipc_status verify_run_row(const verify_campaign *campaign, int index, const ver
 #pragma omp for schedule(dynamic, 1)
         for (int part = 0; part < PARTS; part++) {
             bool skip = false;
-#pragma omp critical(verify)
+#pragma omp critical
             {
                 failed = failed || mine == NULL || rng == NULL;
                 skip = failed || stopped;
@@ -54,7 +54,7 @@ cipc_status verify_run_row(const verify_campaign *campaign, int index, const ver
             if (skip) continue;
             campaign->describe(index, mine);
             run_part(campaign, index, run, samples * part / PARTS, samples * (part + 1) / PARTS, rng, mine);
-#pragma omp critical(verify)
+#pragma omp critical
             {
                 verify_row_merge(row, mine); /* sums and maxima with ties by sample: the order does not matter */
                 done++;
