@@ -11,14 +11,15 @@
 
 /* What one look at a state found. Everything but lists_made depends on the positions only, neither on the number of threads nor on
  * earlier looks (the counts exact_*, pairs_checked and crossings_checked: except for pairs so degenerate that the filter cannot measure
- * them). */
+ * them; paths_checked and exact_path_checks: the lists of an earlier look are used where they serve). */
 typedef struct cipc_invariant_report {
-    double min_gap;       /* min over pairs within reach of d - xi, m (rounded to nearest); INFINITY: none within reach */
-    int min_gap_nodes[4]; /* the pair: -1 for unused; point first, or edge a then edge b */
+    double min_gap;       /* min over pairs within reach of d - xi, m: the exact minimum, rounded to nearest; INFINITY: none within reach */
+    int min_gap_nodes[4]; /* the pair: -1 for unused; point first, or edge a then edge b. Of pairs with the same rounded gap the first */
     int min_gap_is_edge_edge;
-    double max_stretch;                         /* largest principal stretch over all triangles of bodies that have a membrane or a limit */
+    double max_stretch; /* largest principal stretch over all triangles of bodies that have a membrane or a limit: of the triangle that double
+                         * arithmetic finds to be stretched most, the exact value rounded upwards */
     int max_stretch_triangle;                   /* -1: none */
-    double max_stretch_ratio;                   /* largest (sigma_1 - 1)/(s - 1) over limited triangles; 0 if none */
+    double max_stretch_ratio;                   /* largest (sigma_1 - 1)/(s - 1) over limited triangles, likewise; 0 if none or below 0 */
     long exact_gap_checks, exact_strain_checks; /* how often the filter had to hand over to exact arithmetic */
     long pairs_checked;                         /* point-triangle and edge-edge pairs with d - xi <= reach */
     long crossings_checked; /* edge-triangle pairs that no separating plane was found for: decided by the exact predicate */

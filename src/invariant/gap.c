@@ -1,5 +1,6 @@
 /* Monitor M2: d > xi for every point-triangle and edge-edge pair that shares no node (SPEC V.5). A pair is cleared by a certified
- * separation (separation.c) or else decided by the exact comparison of d^2 with xi^2. The least gap found is measured again exactly. */
+ * separation (separation.c) or else decided by the exact comparison of d^2 with xi^2. The least gap is the exact one: the pairs that the
+ * filter cannot tell from it are measured again exactly. */
 #include "cipc/invariant.h"
 
 #include <math.h>
@@ -12,7 +13,7 @@
 
 /* A measured pair; nodes: point and triangle, or two edges, the edge of lower index first. */
 typedef struct measured_pair {
-    double gap;    /* d - xi, by the filter */
+    double gap;    /* at most d - xi rounded to nearest; if exact, that itself */
     double offset; /* xi */
     bool edge_edge;
     int nodes[4];
@@ -63,10 +64,8 @@ static void measure(measured_pair *p, const double *x, double reach)
     p->violated = false;
     p->gap = s.lower - p->offset;
     if (p->exact) {
-        double distance2;
-        distance2 = cipc_exact_distance2(cipc_mesh_pair(p->edge_edge), stencil, NULL);
         p->violated = cipc_exact_distance_sign(cipc_mesh_pair(p->edge_edge), stencil, p->offset) <= 0;
-        p->gap = sqrt(distance2) - p->offset;
+        p->gap = cipc_exact_distance_gap(cipc_mesh_pair(p->edge_edge), stencil, p->offset);
     }
 }
 
@@ -82,6 +81,12 @@ static void set_nodes(measured_pair *p, const cipc_model *m, const int pair[2])
     p->offset = invariant_candidates_offset(m, p->nodes[0], p->nodes[p->edge_edge ? 2 : 1]);
 }
 
+/* Is the pair one of those whose least gap is reported? */
+static bool counts(const measured_pair *p, double reach)
+{
+    return (p->gap <= reach && !p->beyond) || p->violated;
+}
+
 static gap_result check_part(const cipc_model *m, const invariant_candidate_part *part, double reach, const double *x)
 {
     gap_result r = {0};
@@ -90,7 +95,7 @@ static gap_result check_part(const cipc_model *m, const invariant_candidate_part
         set_nodes(&p, m, part->pairs[i]);
         measure(&p, x, reach);
         r.exact += p.exact ? 1 : 0;
-        if ((p.gap <= reach && !p.beyond) || p.violated) {
+        if (counts(&p, reach)) {
             r.checked++;
             keep_least(&r, &p);
         }
@@ -117,20 +122,46 @@ static cipc_status fail_gap(const cipc_model *m, const double *x, const measured
                      n[0], a, n[1], n[2], n[3], b, text);
 }
 
-static void fill_report(cipc_invariant_report *report, const gap_result *r, const double *x)
+static double exact_gap(const measured_pair *p, const double *x)
+{
+    double stencil[12];
+    cipc_gather(stencil, x, p->nodes, 4);
+    return cipc_exact_distance_gap(cipc_mesh_pair(p->edge_edge), stencil, p->offset);
+}
+
+/* Pairs of one part that may be as near as *least, whose gap is exact: measured exactly, and the first of them in the order kept. */
+static void settle_part(measured_pair *least, const cipc_model *m, const invariant_candidate_part *part, double reach, const double *x)
+{
+    measured_pair p = {.edge_edge = part->kind == CIPC_CANDIDATE_EDGE_EDGE};
+    for (int i = 0; i < part->count; i++) {
+        set_nodes(&p, m, part->pairs[i]);
+        measure(&p, x, reach);
+        if (!counts(&p, reach) || p.gap > least->gap) { continue; }
+        if (!p.exact) { p.gap = exact_gap(&p, x); }
+        if (is_less(&p, least)) { *least = p; }
+    }
+}
+
+/* The exact minimum. Rounding to nearest is monotone, so what the filter proved is at most the exact gap rounded: a part whose least value
+ * is above an exact gap holds nothing nearer. Few parts are left. */
+static void settle_least(gap_result *all, const gap_result *results, const cipc_monitor *monitor, const double *x)
+{
+    const invariant_candidates *c = &monitor->candidates;
+    if (!all->any) { return; }
+    all->least.gap = exact_gap(&all->least, x);
+    for (int i = 0; i < c->part_count; i++) {
+        if (results[i].any && results[i].least.gap <= all->least.gap) { settle_part(&all->least, monitor->model, &c->parts[i], c->reach, x); }
+    }
+}
+
+static void fill_report(cipc_invariant_report *report, const gap_result *r)
 {
     if (report == NULL) { return; }
     report->pairs_checked = r->checked;
     report->exact_gap_checks = r->exact;
-    report->min_gap = INFINITY;
-    report->min_gap_is_edge_edge = 0;
+    report->min_gap = r->any ? r->least.gap : INFINITY;
+    report->min_gap_is_edge_edge = r->any && r->least.edge_edge ? 1 : 0;
     for (int i = 0; i < 4; i++) { report->min_gap_nodes[i] = r->any ? r->least.nodes[i] : -1; }
-    if (r->any) {
-        double stencil[12];
-        cipc_gather(stencil, x, r->least.nodes, 4);
-        report->min_gap = cipc_exact_distance_gap(cipc_mesh_pair(r->least.edge_edge), stencil, r->least.offset);
-        report->min_gap_is_edge_edge = r->least.edge_edge ? 1 : 0;
-    }
 }
 
 static gap_result merge(const gap_result *results, int count)
@@ -159,7 +190,8 @@ cipc_status cipc_monitor_gap(cipc_monitor *monitor, const double *x, cipc_invari
         if (c->parts[i].kind != CIPC_CANDIDATE_EDGE_TRIANGLE) { results[i] = check_part(monitor->model, &c->parts[i], c->reach, x); }
     }
     gap_result all = merge(results, c->part_count);
+    if (report != NULL) { settle_least(&all, results, monitor, x); }
     cipc_free(results);
-    fill_report(report, &all, x);
+    fill_report(report, &all);
     return all.any_violated ? fail_gap(monitor->model, x, &all.violated, error) : CIPC_OK;
 }

@@ -7,6 +7,8 @@
 
 #include <float.h>
 #include <math.h>
+#include <stdint.h>
+#include <string.h>
 
 #include "base/vector.h"
 #include "cipc/oracle.h"
@@ -82,10 +84,56 @@ static double largest_stretch2(const cipc_strain_rest *rest, const double e1[3],
     return 0.5 * (c11 + c22) + sqrt(half * half + c12 * c12);
 }
 
+/* Positive doubles are in the order of their bits. */
+static uint64_t rank_of(double positive)
+{
+    uint64_t rank;
+    memcpy(&rank, &positive, sizeof rank);
+    return rank;
+}
+
+static double of_rank(uint64_t rank)
+{
+    double value;
+    memcpy(&value, &rank, sizeof value);
+    return value;
+}
+
+/* sigma_1 rounded upwards: the least double that exact comparison finds not below it, sought from the estimate in steps that double until it
+ * lies between two, then by halves. Where there is none (a rest triangle without area) the estimate stands. */
+static double stretch_upwards(const cipc_model *m, int triangle, const double *x, double estimate)
+{
+    const uint64_t end = rank_of(INFINITY);
+    double rest[9], now[9];
+    if (!(estimate > 0) || !isfinite(estimate)) { return estimate; }
+    cipc_gather(rest, m->rest, m->triangles[triangle], 3);
+    cipc_gather(now, x, m->triangles[triangle], 3);
+    uint64_t above = rank_of(estimate), below = above - 1, step = 1;
+    for (; below > 0 && cipc_exact_compare_stretch(rest, now, of_rank(below)) >= 0; step *= 2) {
+        above = below;
+        below = below > step ? below - step : 0;
+    }
+    for (; above < end && cipc_exact_compare_stretch(rest, now, of_rank(above)) < 0; step *= 2) {
+        below = above;
+        above = end - above > step ? above + step : end;
+    }
+    if (above == end) { return estimate; }
+    while (above - below > 1) {
+        uint64_t middle = below + (above - below) / 2;
+        if (cipc_exact_compare_stretch(rest, now, of_rank(middle)) >= 0) {
+            above = middle;
+        } else {
+            below = middle;
+        }
+    }
+    return of_rank(above);
+}
+
 /* What one section of the triangles gave. */
 typedef struct strain_result {
-    double stretch, ratio;
-    int triangle;  /* of the largest stretch; -1: none */
+    double stretch, ratio; /* as doubles give them */
+    int triangle;          /* of the largest stretch; -1: none */
+    int ratio_triangle;    /* of the largest ratio; -1: none limited */
     int violating; /* the first violating triangle; -1: none */
     long exact;
 } strain_result;
@@ -109,7 +157,11 @@ static void check_triangle(strain_result *r, const cipc_monitor *monitor, int t,
         r->triangle = t;
     }
     if (!(rest->limit > 0)) { return; }
-    r->ratio = fmax(r->ratio, (stretch - 1) / (rest->limit - 1));
+    double ratio = (stretch - 1) / (rest->limit - 1);
+    if (r->ratio_triangle < 0 || ratio > r->ratio) {
+        r->ratio = ratio;
+        r->ratio_triangle = t;
+    }
     fundamental_form(form, e1, e2);
     if (!is_proven(rest, form)) {
         r->exact++;
@@ -119,7 +171,7 @@ static void check_triangle(strain_result *r, const cipc_monitor *monitor, int t,
 
 static strain_result check_section(const cipc_monitor *monitor, int section, const double *x)
 {
-    strain_result r = {0, 0, -1, -1, 0};
+    strain_result r = {0, 0, -1, -1, -1, 0};
     int first = section * CIPC_MONITOR_SECTION, count = monitor->model->triangle_count;
     int last = first + CIPC_MONITOR_SECTION < count ? first + CIPC_MONITOR_SECTION : count;
     for (int t = first; t < last; t++) {
@@ -130,14 +182,17 @@ static strain_result check_section(const cipc_monitor *monitor, int section, con
 
 static strain_result merge(const strain_result *results, int count)
 {
-    strain_result all = {0, 0, -1, -1, 0};
+    strain_result all = {0, 0, -1, -1, -1, 0};
     for (int i = 0; i < count; i++) {
         const strain_result *r = &results[i];
         if (r->triangle >= 0 && (all.triangle < 0 || r->stretch > all.stretch)) {
             all.stretch = r->stretch;
             all.triangle = r->triangle;
         }
-        all.ratio = fmax(all.ratio, r->ratio);
+        if (r->ratio_triangle >= 0 && (all.ratio_triangle < 0 || r->ratio > all.ratio)) {
+            all.ratio = r->ratio;
+            all.ratio_triangle = r->ratio_triangle;
+        }
         all.violating = all.violating < 0 ? r->violating : all.violating;
         all.exact += r->exact;
     }
@@ -150,12 +205,24 @@ static cipc_status fail_strain(const cipc_monitor *monitor, int t, const double 
     const int *n = m->triangles[t];
     double e1[3], e2[3], limit = monitor->rest[t].limit;
     edges_of(x, n, e1, e2);
-    double stretch = sqrt(largest_stretch2(&monitor->rest[t], e1, e2));
+    double stretch = stretch_upwards(m, t, x, sqrt(largest_stretch2(&monitor->rest[t], e1, e2)));
     return cipc_fail(error, CIPC_E_VIOLATED_STRAIN, "monitor strain",
-                     "triangle %d (nodes %d %d %d, body \"%s\"): largest principal stretch %.17g (%a, evaluated in double) must be below "
-                     "the limit %.17g (%a); exact "
-                     "arithmetic says it is not",
+                     "triangle %d (nodes %d %d %d, body \"%s\"): largest principal stretch %.17g (%a, exact, rounded upwards) must be "
+                     "below the limit %.17g (%a)",
                      t, n[0], n[1], n[2], m->bodies[m->triangle_body[t]].name, stretch, stretch, limit, limit);
+}
+
+/* What double arithmetic found to be the largest, rounded upwards from its exact value: what is reported below a limit is below it. */
+static void fill_report(cipc_invariant_report *report, const strain_result *r, const cipc_monitor *monitor, const double *x)
+{
+    report->max_stretch = r->triangle >= 0 ? stretch_upwards(monitor->model, r->triangle, x, r->stretch) : 0;
+    report->max_stretch_triangle = r->triangle;
+    report->max_stretch_ratio = 0;
+    if (r->ratio_triangle >= 0) {
+        double limit = monitor->rest[r->ratio_triangle].limit, stretch = r->ratio * (limit - 1) + 1;
+        report->max_stretch_ratio = fmax(0, (stretch_upwards(monitor->model, r->ratio_triangle, x, stretch) - 1) / (limit - 1));
+    }
+    report->exact_strain_checks = r->exact;
 }
 
 cipc_status cipc_monitor_strain(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error)
@@ -171,11 +238,6 @@ cipc_status cipc_monitor_strain(cipc_monitor *monitor, const double *x, cipc_inv
     for (int i = 0; i < sections; i++) { results[i] = check_section(monitor, i, x); }
     strain_result all = merge(results, sections);
     cipc_free(results);
-    if (report != NULL) {
-        report->max_stretch = all.stretch;
-        report->max_stretch_triangle = all.triangle;
-        report->max_stretch_ratio = all.ratio;
-        report->exact_strain_checks = all.exact;
-    }
+    if (report != NULL) { fill_report(report, &all, monitor, x); }
     return all.violating < 0 ? CIPC_OK : fail_strain(monitor, all.violating, x, error);
 }

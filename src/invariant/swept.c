@@ -16,13 +16,15 @@ typedef struct moving_pair {
     bool edge_edge;
     int nodes[4];
     double offset; /* xi */
+    bool violated; /* else undecided */
     cipc_exact_impact impact;
 } moving_pair;
 
-/* What one part of the lists gave; the violating pair with the least nodes, so that the answer does not depend on the order of the lists. */
+/* What one part of the lists gave; of the pairs not cleared the one with the least nodes, so that the answer does not depend on the order of the lists, and
+ * not on what else a list holds. */
 typedef struct swept_result {
     long checked, exact;
-    bool violated, undecided;
+    bool any;
     moving_pair first;
 } swept_result;
 
@@ -41,8 +43,10 @@ static bool cleared_from(const moving_pair *p, const double here[12], const doub
     return s.lower > p->offset && cipc_separation_along(p->edge_edge, there, s.n) > p->offset;
 }
 
-static bool less_nodes(const moving_pair *a, const moving_pair *b)
+/* A violation before what could not be decided. */
+static bool is_before(const moving_pair *a, const moving_pair *b)
 {
+    if (a->violated != b->violated) { return a->violated; }
     if (a->edge_edge != b->edge_edge) { return b->edge_edge; }
     for (int i = 0; i < 4; i++) {
         if (a->nodes[i] != b->nodes[i]) { return a->nodes[i] < b->nodes[i]; }
@@ -52,7 +56,8 @@ static bool less_nodes(const moving_pair *a, const moving_pair *b)
 
 static void keep_first(swept_result *r, const moving_pair *p)
 {
-    if (!(r->violated || r->undecided) || less_nodes(p, &r->first)) { r->first = *p; }
+    if (!r->any || is_before(p, &r->first)) { r->first = *p; }
+    r->any = true;
 }
 
 static void check_pair(swept_result *r, moving_pair *p, const double *from, const double *to)
@@ -69,9 +74,8 @@ static void check_pair(swept_result *r, moving_pair *p, const double *from, cons
     cipc_verdict clear = cipc_exact_path_clear(&path, p->offset, 1);
     if (clear == CIPC_YES) { return; }
     p->impact = cipc_exact_toi(&path, p->offset, 1);
+    p->violated = clear == CIPC_NO;
     keep_first(r, p);
-    if (clear == CIPC_NO) { r->violated = true; }
-    else { r->undecided = true; }
 }
 
 static void set_nodes(moving_pair *p, const cipc_model *m, const int pair[2])
@@ -102,10 +106,10 @@ static cipc_status fail_swept(const cipc_model *m, const swept_result *r, cipc_e
     const moving_pair *p = &r->first;
     const int *n = p->nodes;
     const char *a = cipc_monitor_body(m, n[0]), *b = cipc_monitor_body(m, n[3]);
-    cipc_status status = r->violated ? CIPC_E_VIOLATED_SWEPT : CIPC_E_INDETERMINATE;
+    cipc_status status = p->violated ? CIPC_E_VIOLATED_SWEPT : CIPC_E_INDETERMINATE;
     char text[192];
     snprintf(text, sizeof text, "on the way the distance falls to the offset %.17g (%a) at %.17g (%a) of the path", p->offset, p->offset, p->impact.lo, p->impact.lo);
-    if (!r->violated) { snprintf(text, sizeof text, "exact arithmetic could not decide whether the distance falls to the offset %.17g (%a)", p->offset, p->offset); }
+    if (!p->violated) { snprintf(text, sizeof text, "exact arithmetic could not decide whether the distance falls to the offset %.17g (%a)", p->offset, p->offset); }
     if (p->edge_edge) {
         return cipc_fail(error, status, "monitor swept", "edge (nodes %d %d, body \"%s\") and edge (nodes %d %d, body \"%s\"): %s", n[0], n[1], a, n[2], n[3], b,
                          text);
@@ -128,11 +132,9 @@ static swept_result merge(const swept_result *results, int count)
 {
     swept_result all = {0};
     for (int i = 0; i < count; i++) {
-        if (results[i].violated || results[i].undecided) { keep_first(&all, &results[i].first); }
+        if (results[i].any) { keep_first(&all, &results[i].first); }
         all.checked += results[i].checked;
         all.exact += results[i].exact;
-        all.violated = all.violated || results[i].violated;
-        all.undecided = all.undecided || results[i].undecided;
     }
     return all;
 }
@@ -156,5 +158,5 @@ cipc_status cipc_monitor_swept(cipc_monitor *monitor, const double *from, const 
         report->paths_checked = all.checked;
         report->exact_path_checks = all.exact;
     }
-    return all.violated || all.undecided ? fail_swept(monitor->model, &all, error) : CIPC_OK;
+    return all.any ? fail_swept(monitor->model, &all, error) : CIPC_OK;
 }

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "cipc/oracle.h"
+#include "support/exact_geometry.h"
 #include "support/monitor_trial.h"
 
 static monitor_trial look(const hand_model *h)
@@ -287,6 +288,42 @@ static void test_not_a_number_is_rejected(void **state)
     hand_model_destroy(h);
 }
 
+/* Points whose heights over a slanted triangle differ by a few units in the last place: less than the filter's rounding, so that it puts them
+ * in another order; the report has the exact minimum, and the first pair that has it. */
+static void test_least_gap_is_exact_among_those_the_filter_confuses(void **state)
+{
+    (void)state;
+    enum { POINTS = 40 };
+    uint64_t seed = 5;
+    for (int trial = 0; trial < 20; trial++) {
+        hand_model *h = hand_model_create();
+        int dust = hand_body(h, "dust", 0x1p-20, 0, false), sheet = hand_body(h, "sheet", 0x1p-20, 0, false);
+        for (int i = 0; i < POINTS; i++) {
+            double a = random_uniform(&seed, 0.1, 0.4), b = random_uniform(&seed, 0.1, 0.4);
+            hand_node(h, dust, a, b, 0.3 * a + 0.7 * b + 1e-4);
+        }
+        hand_new_triangle(h, sheet, (const double[9]){0, 0, 0, 1, 0, 0.3, 0, 1, 0.7});
+        double least = INFINITY, x[12];
+        int first = -1, different = 0;
+        memcpy(&x[3], &h->x[3 * POINTS], 9 * sizeof(double));
+        for (int i = 0; i < POINTS; i++) {
+            memcpy(x, &h->x[3 * i], 3 * sizeof(double));
+            double gap = cipc_exact_distance_gap(CIPC_POINT_TRIANGLE, x, 0x1p-20);
+            different += i > 0 && gap != least;
+            if (gap < least) {
+                least = gap;
+                first = i;
+            }
+        }
+        monitor_trial t = look(h);
+        assert_int_equal(t.status, CIPC_OK);
+        assert_true(different > 0 && t.report.exact_gap_checks == 0);
+        assert_true(t.report.min_gap == least);
+        assert_int_equal(t.report.min_gap_nodes[0], first);
+        hand_model_destroy(h);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -305,6 +342,7 @@ int main(void)
         cmocka_unit_test(test_message),
         cmocka_unit_test(test_worst_pair_is_named),
         cmocka_unit_test(test_not_a_number_is_rejected),
+        cmocka_unit_test(test_least_gap_is_exact_among_those_the_filter_confuses),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

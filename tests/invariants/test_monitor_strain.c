@@ -147,6 +147,39 @@ static void test_report(void **state)
     hand_model_destroy(h);
 }
 
+/* What is reported is the least double that is not below the exact stretch: of well-shaped triangles, slivers and collapsed ones. */
+static void test_report_is_rounded_upwards(void **state)
+{
+    (void)state;
+    uint64_t seed = 9;
+    int slivers = 0;
+    for (int trial = 0; trial < 200; trial++) {
+        double rest[9], x[9], height = pow(10, random_uniform(&seed, -7, 0));
+        for (int k = 0; k < 9; k++) {
+            x[k] = random_uniform(&seed, -1, 1);
+            rest[k] = random_uniform(&seed, -1, 1);
+        }
+        for (int k = 0; k < 3; k++) { rest[6 + k] = 0.5 * (rest[k] + rest[3 + k]) + height * rest[6 + k]; }
+        hand_model *h = hand_model_create();
+        hand_new_triangle(h, hand_body(h, "cloth", 0, 1e30, false), rest);
+        memcpy(h->x, x, sizeof x);
+        monitor_trial t = look(h);
+        double up = t.report.max_stretch;
+        assert_int_equal(t.status, CIPC_OK);
+        assert_true(cipc_exact_compare_stretch(rest, x, up) >= 0);
+        assert_int_equal(cipc_exact_compare_stretch(rest, x, nextafter(up, 0)), -1);
+        assert_true(t.report.max_stretch_ratio == fmax(0, (up - 1) / (1e30 - 1)));
+        slivers += height < 1e-5;
+        hand_model_destroy(h);
+    }
+    assert_true(slivers >= 20);
+    hand_model *h = unit_triangle(1.5);
+    h->x[3] = 1.25;
+    monitor_trial t = look(h);
+    assert_true(t.report.max_stretch == 1.25 && t.report.max_stretch_ratio == 0.5); /* exact ones are exact */
+    hand_model_destroy(h);
+}
+
 static void test_report_of_nothing(void **state)
 {
     (void)state;
@@ -250,7 +283,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_one_ulp_from_the_limit),   cmocka_unit_test(test_shear),      cmocka_unit_test(test_around_the_limit),
-        cmocka_unit_test(test_one_stretch_at_the_limit), cmocka_unit_test(test_report),     cmocka_unit_test(test_report_of_nothing),
+        cmocka_unit_test(test_one_stretch_at_the_limit), cmocka_unit_test(test_report),     cmocka_unit_test(test_report_is_rounded_upwards), cmocka_unit_test(test_report_of_nothing),
         cmocka_unit_test(test_large_common_translation), cmocka_unit_test(test_degenerate), cmocka_unit_test(test_extreme_scales),
         cmocka_unit_test(test_many_triangles),           cmocka_unit_test(test_message),
     };
