@@ -202,12 +202,31 @@ static void test_kept_lists(void **state)
     hand_model_destroy(h);
 }
 
+/* Lists that serve for one end only are not used for the path: the pair that meets on the way is on none of them. */
+static void test_lists_of_one_end_do_not_serve(void **state)
+{
+    (void)state;
+    for (int looked_at_end = 0; looked_at_end < 2; looked_at_end++) {
+        hand_model *h = point_over_triangle(0, 1);
+        cipc_monitor *monitor;
+        cipc_error error;
+        double to[12];
+        memcpy(to, h->x, sizeof to);
+        to[11] = -1;
+        assert_int_equal(cipc_monitor_create(&monitor, &h->model, NULL, &error), CIPC_OK);
+        assert_int_equal(cipc_monitor_check(monitor, looked_at_end ? to : h->x, NULL, &error), CIPC_OK);
+        assert_int_equal(cipc_monitor_swept(monitor, h->x, to, NULL, &error), CIPC_E_VIOLATED_SWEPT);
+        cipc_monitor_destroy(monitor);
+        hand_model_destroy(h);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_tunnelling_is_rejected), cmocka_unit_test(test_by_one_ulp),  cmocka_unit_test(test_edges),
         cmocka_unit_test(test_common_motion),          cmocka_unit_test(test_not_finite),  cmocka_unit_test(test_against_the_plain_form),
-        cmocka_unit_test(test_kept_lists),
+        cmocka_unit_test(test_kept_lists),             cmocka_unit_test(test_lists_of_one_end_do_not_serve),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
