@@ -63,11 +63,13 @@ static void close_stream(FILE *stream)
 
 static void print_table(const verify_judgement *j)
 {
-    printf("%-32s %5s %8s %8s %10s %8s %8s %8s\n", "function", "level", "answers", "failed", "worst", "at id", "early", "border");
+    printf("%-32s %5s %8s %8s %10s %8s %8s %8s %9s\n", "function", "level", "answers", "failed", "worst", "at id", "early", "border", "toi/exact");
     for (int i = 0; i < j->count; i++) {
         const verify_score *s = &j->scores[i];
-        printf("%-32s %5d %8ld %8ld %10.3g %8ld %8ld %8ld\n", s->fn, verify_function_level(s->fn), s->count, s->failed, s->worst, s->worst_id, s->early,
+        printf("%-32s %5d %8ld %8ld %10.3g %8ld %8ld %8ld", s->fn, verify_function_level(s->fn), s->count, s->failed, s->worst, s->worst_id, s->early,
                s->other_feature);
+        if (s->scored > 0) printf(" %9.4f", s->score / (double)s->scored);
+        printf("\n");
     }
 }
 
@@ -81,6 +83,7 @@ static json_t *judgement_json(const verify_judgement *j)
                                   (json_int_t)s->failed, "early", (json_int_t)s->early, "border", (json_int_t)s->other_feature, "worst_id",
                                   (json_int_t)s->worst_id);
         cipc_json_put(entry, "worst", cipc_json_number(s->worst), &good);
+        if (s->scored > 0) cipc_json_put(entry, "mean_toi_over_exact", cipc_json_number(s->score / (double)s->scored), &good);
         good = good && json_array_append_new(functions, entry) == 0;
     }
     cipc_json_put(object, "verdict", json_string(j->failures == 0 ? "passed" : "failed"), &good);

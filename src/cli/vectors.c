@@ -60,7 +60,7 @@ static const cipc_arguments arguments = {
 static cipc_status out_of_memory(const char *fn, cipc_error *error) { return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, fn, "no memory for a vector"); }
 
 /* One vector; inputs that the oracle cannot answer (infeasible after rounding to floats, say) are drawn anew. */
-static cipc_status write_vector(const char *fn, gsl_rng *rng, long sample, bool single, long id, cipc_error *error)
+static cipc_status write_vector(const char *fn, gsl_rng *rng, long sample, bool single, long id, long of, cipc_error *error)
 {
     cipc_query query;
     json_t *want = NULL;
@@ -71,6 +71,7 @@ static cipc_status write_vector(const char *fn, gsl_rng *rng, long sample, bool 
     if (want == NULL) return cipc_fail(error, CIPC_E_INDETERMINATE, fn, "no answer is known to %d inputs in a row", MOST_TRIES);
     json_t *line = cipc_query_json(&query, id);
     bool good = line != NULL;
+    cipc_json_put(line, "of", json_integer(of), &good);
     cipc_json_put(line, "want", want, &good);
     cipc_status status = good ? cipc_write_line(line, error) : out_of_memory(fn, error);
     json_decref(line);
@@ -81,13 +82,13 @@ static cipc_status write_all(const request *r, cipc_error *error)
 {
     gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
     cipc_status status = rng != NULL ? CIPC_OK : out_of_memory("vectors", error);
-    long id = 1;
+    long id = 1, of = r->fn != NULL ? r->count : r->count * verify_function_count();
     for (int f = 0; f < verify_function_count() && status == CIPC_OK; f++) {
         const char *fn = verify_function_at(f);
         if (r->fn != NULL && r->fn != fn) continue;
         gsl_rng_set(rng, (unsigned long)r->seed + 1000003UL * (unsigned long)f);
         for (long i = 0; i < r->count && status == CIPC_OK; i++) {
-            status = write_vector(fn, rng, i, r->single, id++, error);
+            status = write_vector(fn, rng, i, r->single, id++, of, error);
             if (status == CIPC_OK && cipc_interrupt_seen()) status = cipc_fail(error, CIPC_E_NO_PROGRESS, "vectors", "interrupted by a signal");
         }
     }

@@ -20,7 +20,9 @@ typedef struct verify_verdict {
     bool failed;
     char reason[160]; /* of a failure */
     double ratio;
-    bool early, other_feature; /* scored, not failed */
+    bool early, other_feature; /* counted, not failed */
+    bool scored;               /* a time of impact: */
+    double score;              /* returned / exact */
 } verify_verdict;
 /* want and got of a query of function fn. A want that cannot be read is a failure too. */
 verify_verdict verify_judge(const char *fn, const json_t *want, const json_t *got, verify_precision precision);
@@ -31,6 +33,8 @@ typedef struct verify_score {
     long count, failed, early, other_feature;
     double worst;
     long worst_id;
+    long scored; /* times of impact, and the sum of returned / exact */
+    double score;
 } verify_score;
 
 /* The judgement of streams of answers. */

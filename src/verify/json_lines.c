@@ -11,11 +11,12 @@ void verify_lines_free(verify_lines *lines)
     lines->text = NULL;
 }
 
-/* Read a line of any length into text, without its newline. 1: a whole line; 0: the end; -1: out of memory; -2: the newline is missing. */
+/* Read a line of any length into text, without its newline. 1: a whole line; 0: the end; -1: out of memory; -2: the newline is missing; -3: it holds a NUL byte. */
 static int read_line(verify_lines *lines)
 {
     size_t used = 0;
-    for (;;) {
+    bool nul = false;
+    for (int c = fgetc(lines->stream); c != EOF; c = fgetc(lines->stream)) {
         if (used + 2 > lines->size) {
             size_t size = lines->size > 0 ? 2 * lines->size : 4096;
             char *text = cipc_realloc(lines->text, size, 1);
@@ -23,13 +24,14 @@ static int read_line(verify_lines *lines)
             lines->text = text;
             lines->size = size;
         }
-        if (fgets(lines->text + used, (int)(lines->size - used), lines->stream) == NULL) return used == 0 ? 0 : -2;
-        used += strlen(lines->text + used);
-        if (used > 0 && lines->text[used - 1] == '\n') {
-            lines->text[used - 1] = '\0';
-            return 1;
+        if (c == '\n') {
+            lines->text[used] = '\0';
+            return nul ? -3 : 1;
         }
+        nul = nul || c == '\0';
+        lines->text[used++] = (char)c;
     }
+    return used == 0 ? 0 : -2;
 }
 
 cipc_status verify_lines_next(verify_lines *lines, json_t **object, cipc_error *error)
@@ -41,6 +43,7 @@ cipc_status verify_lines_next(verify_lines *lines, json_t **object, cipc_error *
         lines->number++;
         snprintf(lines->place, sizeof lines->place, "%s:%ld", lines->name, lines->number);
         if (got == -1) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, lines->place, "no memory for a line");
+        if (got == -3) return cipc_fail(error, CIPC_E_BAD_QUERY, lines->place, "holds a NUL byte");
         if (got == -2) return cipc_fail(error, CIPC_E_BAD_QUERY, lines->place, "the stream ends in the middle of a line");
         if (lines->text[strspn(lines->text, " \t\r")] != '\0') break;
     }

@@ -79,22 +79,47 @@ static bool among(const json_t *set, const char *name)
     return false;
 }
 
-/* Value always; derivatives where the vector has them. An answer with another feature whose value is right to the tolerance sits on a border of features: its
- * derivatives are those of the other side and are not compared. */
-static void judge_derivatives(const json_t *want, const json_t *got, double factor, verify_verdict *v)
+/* Finite numbers of the right count, whatever they are. */
+static void judge_presence(const json_t *got, const char *field, int count, verify_verdict *v)
 {
-    const json_t *set = json_object_get(want, "features");
+    double have[144];
+    if (!read_numbers(got, "got", field, count, have, v)) return;
+    for (int i = 0; i < count; i++)
+        if (!isfinite(have[i])) reject(v, "%s[%d] is not finite", field, i);
+}
+
+/* Is the feature one that attains the minimum, or one so near to it that the arithmetic may confuse them (*border)? */
+static bool is_right_feature(const json_t *want, const char *feature, double factor, bool *border)
+{
+    if (among(json_object_get(want, "features"), feature)) return true;
+    const json_t *off = json_object_get(json_object_get(want, "neighbours"), feature);
+    *border = off != NULL && cipc_json_double(off) <= factor;
+    return *border;
+}
+
+/* Value always; derivatives where the vector has them. An answer with a neighbouring feature sits on a border: its derivatives are those of the other side; they must
+ * be there, and are not compared. */
+static void judge_derivatives(const json_t *want, const json_t *got, int n, double factor, verify_verdict *v)
+{
+    static const char *const fields[2] = {"gradient", "hessian"};
+    const int counts[2] = {n, n * n};
     const char *feature = json_string_value(json_object_get(got, "feature"));
     judge_numbers(json_object_get(want, "value"), json_object_get(got, "value"), "value", factor, v);
-    if (set != NULL && feature == NULL) reject(v, "got lacks \"feature\"");
-    if (v->failed) return;
-    v->other_feature = set != NULL && !among(set, feature);
-    if (v->other_feature) return;
-    static const char *const fields[2] = {"gradient", "hessian"};
+    if (json_object_get(want, "features") != NULL) {
+        if (feature == NULL) reject(v, "got lacks \"feature\"");
+        else if (!is_right_feature(want, feature, factor, &v->other_feature)) reject(v, "feature \"%.16s\" is not among those nearest", feature);
+    }
     for (int i = 0; i < 2; i++) {
         const json_t *entry = json_object_get(want, fields[i]);
-        if (entry != NULL) judge_numbers(entry, json_object_get(got, fields[i]), fields[i], factor, v);
+        judge_presence(json_object_get(got, fields[i]), fields[i], counts[i], v);
+        if (entry != NULL && !v->other_feature) judge_numbers(entry, json_object_get(got, fields[i]), fields[i], factor, v);
     }
+}
+
+static int numbers_of_stencil(const char *fn)
+{
+    cipc_pair_kind kind;
+    return verify_query_kind(fn, "distance2_", &kind) ? 3 * cipc_pair_nodes(kind) : 3 * cipc_energy_find(fn + 7)->nodes;
 }
 
 /* Past the enclosure is unsafe; before it is early, and may be, but not before the bound of eq. (16), of which a port may lose 2^-9 to rounding. */
@@ -111,6 +136,8 @@ static void judge_toi(const json_t *want, const json_t *got, verify_verdict *v)
         if (!read_numbers(json_object_get(want, "hi"), "want", "hi", 1, &hi, v)) return;
         if (!json_is_true(hit)) reject(v, "missed: contact at %.17g, and no hit reported", hi);
         if (toi > hi) reject(v, "unsafe: %.17g is past the contact at %.17g", toi, hi);
+        v->scored = hi > 0;
+        v->score = hi > 0 ? toi / hi : 0;
     } else {
         v->early = json_is_true(hit);
     }
@@ -137,6 +164,6 @@ verify_verdict verify_judge(const char *fn, const json_t *want, const json_t *go
     else if (verify_function_level(fn) == 0) judge_scalar(want, got, factor, &v);
     else if (strcmp(fn, "orient3d") == 0) judge_exact(want, got, "sign", &v);
     else if (strcmp(fn, "intersect_edge_triangle") == 0) judge_exact(want, got, "intersects", &v);
-    else judge_derivatives(want, got, factor, &v);
+    else judge_derivatives(want, got, numbers_of_stencil(fn), factor, &v);
     return v;
 }

@@ -19,6 +19,7 @@ typedef struct pending {
 typedef struct table {
     pending *item;
     long count, capacity;
+    long of; /* how many lines a stream says it has; 0: it does not */
 } table;
 
 static void table_free(table *t)
@@ -78,6 +79,8 @@ static void score(verify_judgement *j, const char *place, long id, const char *f
     s->early += v.early;
     s->other_feature += v.other_feature;
     s->failed += v.failed;
+    s->scored += v.scored;
+    s->score += v.scored ? v.score : 0;
     if (v.ratio > s->worst || s->count == 1) {
         s->worst = v.ratio;
         s->worst_id = id;
@@ -146,6 +149,8 @@ static cipc_status take_line_of_both(verify_judgement *j, const verify_lines *li
         complain(j, lines->place, found.what);
         return CIPC_OK;
     }
+    const json_t *of = json_object_get(object, "of");
+    seen->of = json_is_integer(of) ? (long)json_integer_value(of) : seen->of;
     if (!table_add(seen, id, fn, NULL)) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, lines->place, "no memory for the ids");
     score(j, lines->place, id, fn, json_object_get(object, "want"), json_object_get(object, "got"));
     return CIPC_OK;
@@ -154,6 +159,10 @@ static cipc_status take_line_of_both(verify_judgement *j, const verify_lines *li
 static void find_twins(verify_judgement *j, const char *name, table *seen)
 {
     char text[96];
+    if (seen->count < seen->of) {
+        snprintf(text, sizeof text, "the stream has %ld of the %ld answers that it says it has", seen->count, seen->of);
+        complain(j, name, text);
+    }
     if (seen->count == 0) return;
     qsort(seen->item, (size_t)seen->count, sizeof *seen->item, by_id);
     for (long i = 1; i < seen->count; i++) {

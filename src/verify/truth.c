@@ -55,10 +55,29 @@ static bool differentiate(const cipc_oracle_function *f, const double *x, const 
     return true;
 }
 
+/* The oracle's functions of the flats of a feature. */
+static const char *const flat_names[CIPC_PAIR_KIND_COUNT] = {"distance2_point_point", "distance2_point_line", "distance2_point_plane", "distance2_line_line"};
+
+/* Features beside those that attain the minimum whose own flats are at nearly its distance: how far off they are, in units of the tolerance e of d. Written as far as
+ * a port in floats may confuse them. */
+static json_t *neighbours(const cipc_query *q, cipc_pair_kind kind, unsigned features, double d, double e, bool *good)
+{
+    json_t *object = json_object();
+    for (int i = 0; i < cipc_feature_count(kind); i++) {
+        cipc_feature feature = cipc_feature_at(kind, i);
+        double y[12], value, off;
+        if (features >> i & 1) continue;
+        for (int k = 0; k < feature.count; k++) memcpy(y + 3 * k, q->x + 3 * feature.local[k], 3 * sizeof *y);
+        if (cipc_oracle_evaluate(cipc_oracle_function_find(flat_names[feature.kind]), y, NULL, &value, NULL, NULL) != CIPC_YES) continue;
+        off = e > 0 ? fabs(sqrt(value) - d) / e : INFINITY;
+        if (off <= 0x1p29) cipc_json_put(object, cipc_feature_name(kind, i), cipc_json_number(off), good);
+    }
+    return object;
+}
+
 /* All features that attain the minimum; derivatives if there is only one. The value's tolerance is (4) squared: (d + e)^2 - d^2, e = 4 ULP of the size. */
 static bool distance_truth(const cipc_query *q, cipc_pair_kind kind, json_t *want)
 {
-    static const char *const names[CIPC_PAIR_KIND_COUNT] = {"distance2_point_point", "distance2_point_line", "distance2_point_plane", "distance2_line_line"};
     int n = 3 * cipc_pair_nodes(kind), only = -1;
     unsigned features;
     bool good = true;
@@ -71,12 +90,13 @@ static bool distance_truth(const cipc_query *q, cipc_pair_kind kind, json_t *wan
         good = good && json_array_append_new(set, json_string(cipc_feature_name(kind, i))) == 0;
     }
     cipc_json_put(want, "features", set, &good);
+    cipc_json_put(want, "neighbours", neighbours(q, kind, features, sqrt(d2), e, &good), &good);
     if (only >= 0) {
         cipc_feature feature = cipc_feature_at(kind, only);
         double y[12], g[12], H[144];
         derivatives d;
         for (int i = 0; i < feature.count; i++) memcpy(y + 3 * i, q->x + 3 * feature.local[i], 3 * sizeof *y);
-        if (!differentiate(cipc_oracle_function_find(names[feature.kind]), y, NULL, &d)) return good;
+        if (!differentiate(cipc_oracle_function_find(flat_names[feature.kind]), y, NULL, &d)) return good;
         verify_scatter(&feature, n, d.g, d.H, g, H);
         put_numbers(want, "gradient", g, n, d.tolerance.gradient, &good);
         if (isfinite(d.tolerance.hessian)) put_numbers(want, "hessian", H, n * n, d.tolerance.hessian, &good);

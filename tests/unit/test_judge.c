@@ -77,24 +77,36 @@ static void test_single_precision(void **state)
     assert_false(judge(&t, VERIFY_BINARY32).failed);
 }
 
-/* Another feature passes with the right value, and its derivatives are not compared. */
+/* Gradients of 9 numbers and Hessians of 81, as texts. */
+#define GRADIENT(second) "[1, " second ", 0, 0, 0, 0, 0, 0, 0]"
+#define NINE "0, 0, 0, 0, 0, 0, 0, 0, 0"
+#define HESSIAN(first) "[" first ", 0, 0, 0, 0, 0, 0, 0, 0, " NINE ", " NINE ", " NINE ", " NINE ", " NINE ", " NINE ", " NINE ", " NINE "]"
+
+/* A feature of the set, or one so near that rounding may confuse them; then its derivatives must be there, and are not compared. Any other fails. */
 static void test_features(void **state)
 {
     (void)state;
-    static const char want[] = "{\"value\": {\"numbers\": [1], \"tolerance\": 0}, \"features\": [\"p-e0\", \"p-e\"], \"gradient\": {\"numbers\": [1,2], \"tolerance\": 0}}";
-    const trial right = {"distance2_point_edge", want, "{\"value\": 1, \"feature\": \"p-e\", \"gradient\": [1, 2]}", NULL};
-    const trial wrong_gradient = {"distance2_point_edge", want, "{\"value\": 1, \"feature\": \"p-e\", \"gradient\": [1, 3]}", "gradient[1]"};
-    const trial no_gradient = {"distance2_point_edge", want, "{\"value\": 1, \"feature\": \"p-e\"}", "lacks \"gradient\""};
-    const trial border = {"distance2_point_edge", want, "{\"value\": 1, \"feature\": \"p-e1\", \"gradient\": [7, 7]}", NULL};
-    const trial wrong_value = {"distance2_point_edge", want, "{\"value\": 2, \"feature\": \"p-e1\"}", "value[0]"};
-    const trial no_feature = {"distance2_point_edge", want, "{\"value\": 1, \"gradient\": [1, 2]}", "lacks \"feature\""};
-    expect(&right);
-    expect(&wrong_gradient);
-    expect(&no_gradient);
-    expect(&border);
-    expect(&wrong_value);
-    expect(&no_feature);
-    assert_true(judge(&border, VERIFY_BINARY64).other_feature && !judge(&right, VERIFY_BINARY64).other_feature);
+    static const char want[] = "{\"value\": {\"numbers\": [1], \"tolerance\": 0}, \"features\": [\"p-e0\", \"p-e\"], \"neighbours\": {\"p-e1\": 0.5, \"p-q\": 1000},"
+                               " \"gradient\": {\"numbers\": " GRADIENT("2") ", \"tolerance\": 0}}";
+#define GOT(value, feature, gradient, hessian) "{\"value\": " value ", \"feature\": \"" feature "\", \"gradient\": " gradient ", \"hessian\": " hessian "}"
+    static const trial trials[] = {
+        {"distance2_point_edge", want, GOT("1", "p-e", GRADIENT("2"), HESSIAN("5")), NULL},
+        {"distance2_point_edge", want, GOT("1", "p-e", GRADIENT("3"), HESSIAN("5")), "gradient[1]"},
+        {"distance2_point_edge", want, GOT("1", "p-e1", GRADIENT("7"), HESSIAN("5")), NULL}, /* on the border */
+        {"distance2_point_edge", want, GOT("2", "p-e1", GRADIENT("2"), HESSIAN("5")), "value[0]"},
+        {"distance2_point_edge", want, GOT("1", "p-e1", "[7, 7]", HESSIAN("5")), "has not 9 numbers"},
+        {"distance2_point_edge", want, GOT("1", "p-e1", GRADIENT("\"inf\""), HESSIAN("5")), "not finite"},
+        {"distance2_point_edge", want, GOT("1", "p-e", GRADIENT("2"), HESSIAN("\"nan\"")), "not a number"},
+        {"distance2_point_edge", want, GOT("1", "p-q", GRADIENT("2"), HESSIAN("5")), "not among those nearest"},
+        {"distance2_point_edge", want, GOT("1", "banana", GRADIENT("2"), HESSIAN("5")), "not among those nearest"},
+        {"distance2_point_edge", want, "{\"value\": 1, \"feature\": \"p-e\"}", "lacks \"gradient\""},
+        {"distance2_point_edge", want, "{\"value\": 1, \"feature\": \"p-e1\"}", "lacks \"gradient\""},
+        {"distance2_point_edge", want, "{\"value\": 1, \"gradient\": " GRADIENT("2") "}", "lacks \"feature\""},
+    };
+    for (size_t i = 0; i < sizeof trials / sizeof trials[0]; i++) expect(&trials[i]);
+    assert_true(judge(&trials[2], VERIFY_BINARY64).other_feature && !judge(&trials[0], VERIFY_BINARY64).other_feature);
+    const trial in_floats = {"distance2_point_edge", want, GOT("1", "p-q", GRADIENT("2"), HESSIAN("5")), NULL};
+    assert_false(judge(&in_floats, VERIFY_BINARY32).failed);
 }
 
 static void test_times_of_impact(void **state)
@@ -122,6 +134,7 @@ static void test_times_of_impact(void **state)
     for (size_t i = 0; i < sizeof trials / sizeof trials[0]; i++) expect(&trials[i]);
     const trial early = {"toi_point_point", miss, "{\"toi\": 0.5, \"hit\": true}", NULL};
     assert_true(judge(&early, VERIFY_BINARY64).early);
+    assert_true(judge(&trials[0], VERIFY_BINARY64).scored && fabs(judge(&trials[0], VERIFY_BINARY64).score - 0.9) < 1e-12);
 }
 
 int main(void)
