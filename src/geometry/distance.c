@@ -2,6 +2,7 @@
 #include <string.h>
 
 #include "cipc/geometry.h"
+#include "geometry/nearest.h"
 
 double cipc_distance2_value(cipc_pair_kind kind, const double *x)
 {
@@ -33,34 +34,39 @@ void cipc_distance2_hessian(cipc_pair_kind kind, const double *x, double *H)
     }
 }
 
-/* The smooth distance of a feature of the stencil x. */
-static double feature_distance2(cipc_feature feature, const double *x)
-{
-    double y[12];
-    for (int i = 0; i < feature.count; i++) memcpy(y + 3 * i, x + 3 * feature.local[i], 3 * sizeof y[0]);
-    return cipc_distance2_value(feature.kind, y);
-}
-
-double cipc_point_edge_distance2(const double x[9])
-{
-    return feature_distance2(cipc_point_edge_feature(x), x);
-}
-
-double cipc_point_triangle_distance2(const double x[12])
-{
-    return feature_distance2(cipc_point_triangle_feature(x), x);
-}
-
-double cipc_edge_edge_distance2(const double x[12])
-{
-    return feature_distance2(cipc_edge_edge_feature(x), x);
-}
-
 /* Features of less than four nodes: their nodes' positions. */
 enum { PART_NODES = 3 };
 static void gather(const cipc_feature *feature, const double *x, double y[3 * PART_NODES])
 {
-    for (int i = 0; i < PART_NODES && i < feature->count; i++) memcpy(y + 3 * i, x + 3 * feature->local[i], 3 * sizeof y[0]);
+    for (int i = 0; i < PART_NODES; i++) memcpy(y + 3 * i, x + 3 * feature->local[i], 3 * sizeof y[0]); /* local is 0 beyond the count */
+}
+
+/* The smooth distance of such a feature of the stencil x, read where its nodes lie. */
+static inline double part_distance2(const cipc_feature *feature, const double *x)
+{
+    const double *p = x + 3 * feature->local[0], *e0 = x + 3 * feature->local[1], *e1 = x + 3 * feature->local[2];
+    double u[3], e[3];
+    v3_sub(u, p, e0);
+    v3_sub(e, e1, e0);
+    return feature->kind == CIPC_POINT_POINT ? v3_norm2(u) : line_distance2(u, e);
+}
+
+double cipc_point_edge_distance2(const double x[9])
+{
+    cipc_feature feature = cipc_point_edge_feature(x);
+    return part_distance2(&feature, x);
+}
+
+double cipc_point_triangle_distance2(const double x[12])
+{
+    cipc_feature feature = cipc_point_triangle_feature(x);
+    return feature.count == 4 ? cipc_point_plane_distance2_value(x) : part_distance2(&feature, x);
+}
+
+double cipc_edge_edge_distance2(const double x[12])
+{
+    cipc_feature feature = cipc_edge_edge_feature(x);
+    return feature.count == 4 ? cipc_line_line_distance2_value(x) : part_distance2(&feature, x);
 }
 
 /* g[n] of the feature's nodes among the n numbers of the stencil. */

@@ -45,13 +45,13 @@ static double inside_distance2(const double u[3], const double a[3], const doubl
 {
     plane_frame f;
     plane_frame_directions(&f, a, b);
-    plane_frame_coordinates(&f, u, a, b);
+    plane_frame_coordinates(&f, u);
     double distance2 = plane_frame_settle(&f, u, a, b), s = -f.beta, t = f.gamma;
     return f.n2 >= DBL_MIN && s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 ? distance2 : INFINITY;
 }
 
 /* Near-parallel or zero-length edges: the nearest of the four ends against the other edge, unless the interior is truly nearer. */
-static cipc_feature by_exhaustion(const double x[12], const double u[3], const double a[3], const double b[3])
+__attribute__((noinline, cold)) static cipc_feature by_exhaustion(const double x[12], const double u[3], const double a[3], const double b[3])
 {
     nearest_feature best = {INFINITY, feature_point_point(0, 2)};
     nearest_offer_segment(&best, x, 0, 2, 3);

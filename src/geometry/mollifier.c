@@ -11,7 +11,7 @@ typedef struct cross_gradient {
     double c;
 } cross_gradient;
 
-static double edges_cross2(const double x[12], double a[3], double b[3], double n[3])
+static inline double edges_cross2(const double x[12], double a[3], double b[3], double n[3])
 {
     v3_sub(a, x + 3, x);
     v3_sub(b, x + 9, x + 6);
@@ -19,16 +19,13 @@ static double edges_cross2(const double x[12], double a[3], double b[3], double 
     return v3_norm2(n);
 }
 
-static cross_gradient differentiate(const double x[12])
+static inline void differentiate(const double x[12], cross_gradient *f)
 {
-    cross_gradient f;
     double n[3];
-    f.c = edges_cross2(x, f.a, f.b, n);
-    v3_cross(f.ca, f.b, n);
-    v3_cross(f.cb, n, f.a);
-    v3_scale(f.ca, 2.0, f.ca);
-    v3_scale(f.cb, 2.0, f.cb);
-    return f;
+    f->c = edges_cross2(x, f->a, f->b, n);
+    v3_scale(n, 2.0, n);
+    v3_cross(f->ca, f->b, n);
+    v3_cross(f->cb, n, f->a);
 }
 
 double cipc_edge_edge_cross2(const double x[12])
@@ -47,7 +44,8 @@ double cipc_edge_edge_mollifier_value(const double x[12], double eps)
 /* e'(c) and e''(c) below the threshold, eq. 15. */
 static double first_derivative(double c, double eps)
 {
-    return 2.0 / eps * (1.0 - c / eps);
+    double inverse = 1.0 / eps;
+    return 2.0 * inverse * (1.0 - c * inverse);
 }
 
 static double second_derivative(double eps)
@@ -57,7 +55,8 @@ static double second_derivative(double eps)
 
 void cipc_edge_edge_mollifier_gradient(const double x[12], double eps, double g[12])
 {
-    cross_gradient f = differentiate(x);
+    cross_gradient f;
+    differentiate(x, &f);
     if (!(f.c < eps)) {
         memset(g, 0, 12 * sizeof g[0]);
         return;
@@ -101,7 +100,8 @@ static void write_block(double H[144], int row, int column, int r, int s, double
 
 void cipc_edge_edge_mollifier_hessian(const double x[12], double eps, double H[144])
 {
-    cross_gradient f = differentiate(x);
+    cross_gradient f;
+    differentiate(x, &f);
     if (!(f.c < eps)) {
         memset(H, 0, 144 * sizeof H[0]);
         return;

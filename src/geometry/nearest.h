@@ -12,6 +12,14 @@
  * by at most about 4 u/sin = 40 u of the stencil's size, and that is also all that the distance can be off by (section 6.2). */
 #define NEAREST_WELL_SHAPED 1e-2
 
+/* Squared distance across the line of a segment, |u x e|^2 / |e|^2. */
+static inline double line_distance2(const double u[3], const double e[3])
+{
+    double m[3];
+    v3_cross(m, u, e);
+    return v3_norm2(m) / v3_norm2(e);
+}
+
 /* Where the nearest point of a segment lies. */
 typedef enum nearest_place { NEAREST_FIRST_END, NEAREST_SECOND_END, NEAREST_INSIDE } nearest_place;
 
@@ -23,7 +31,7 @@ static inline nearest_place nearest_on_segment(const double u[3], const double e
     return along < length2 ? NEAREST_INSIDE : NEAREST_SECOND_END;
 }
 
-/* The same, with the squared distance to that point. Inside it is measured across the segment, |u x e|^2 / |e|^2. */
+/* The same, with the squared distance to that point. */
 static inline nearest_place nearest_on_segment_distance2(const double u[3], const double e[3], double *distance2)
 {
     double rest[3];
@@ -34,8 +42,7 @@ static inline nearest_place nearest_on_segment_distance2(const double u[3], cons
         v3_sub(rest, u, e);
         *distance2 = v3_norm2(rest);
     } else {
-        v3_cross(rest, u, e);
-        *distance2 = v3_norm2(rest) / v3_norm2(e);
+        *distance2 = line_distance2(u, e);
     }
     return place;
 }

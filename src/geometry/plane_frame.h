@@ -3,6 +3,8 @@
 #ifndef CIPC_GEOMETRY_PLANE_FRAME_H
 #define CIPC_GEOMETRY_PLANE_FRAME_H
 
+#include <stdbool.h>
+
 #include "base/vector.h"
 
 /* u = beta a + gamma b + lambda n, with n = a x b and the dual directions g1, g2 in the plane (g1.a = 1, g1.b = 0, ...). */
@@ -13,28 +15,38 @@ typedef struct plane_frame {
     double beta, gamma, lambda;
 } plane_frame;
 
-/* Normal n = a x b with its rounding error along a taken out (eq. 9). What is left of the error points across a, where a near-flat
- * stencil has next to no extent, so that distances along n keep an error of a few ulp of the stencil's size at any angle. */
-static inline void plane_normal(double n[3], const double a[3], const double b[3])
+/* cot^2 of the angle between a and b up to which the cross product is good enough as it is: sin >= 1/3 (section 5). */
+#define PLANE_CLEAR_COT2 15.0
+
+static inline bool plane_is_clear(double n2, const double a[3], const double b[3])
+{
+    double ab = v3_dot(a, b);
+    return ab * ab <= PLANE_CLEAR_COT2 * n2;
+}
+
+/* Normal n = a x b with, at small angles, its rounding error along a taken out (eq. 9). What is left of the error points across a, where a
+ * near-flat stencil has next to no extent, so that distances along n keep an error of a few ulp of the stencil's size at any angle.
+ * Returns |n|^2. */
+static inline double plane_normal(double n[3], const double a[3], const double b[3])
 {
     v3_cross(n, a, b);
+    double n2 = v3_norm2(n);
+    if (plane_is_clear(n2, a, b)) return n2;
     v3_axpy(n, -v3_dot(n, a) / v3_norm2(a), a);
+    return v3_norm2(n);
 }
 
 /* Squared distance along the normal (eq. 4): (u.n)^2 / |n|^2. */
 static inline double plane_distance2(const double u[3], const double a[3], const double b[3])
 {
-    double n[3];
-    plane_normal(n, a, b);
-    double height = v3_dot(u, n);
-    return height * height / v3_norm2(n);
+    double n[3], n2 = plane_normal(n, a, b), height = v3_dot(u, n);
+    return height * height / n2;
 }
 
 /* Normal and dual directions (eq. 5). */
 static inline void plane_frame_directions(plane_frame *f, const double a[3], const double b[3])
 {
-    plane_normal(f->n, a, b);
-    f->n2 = v3_norm2(f->n);
+    f->n2 = plane_normal(f->n, a, b);
     double inverse = 1.0 / f->n2;
     v3_cross(f->g1, b, f->n);
     v3_cross(f->g2, f->n, a);
@@ -59,20 +71,20 @@ static inline void plane_frame_refine(plane_frame *f, const double u[3], const d
     f->gamma += v3_dot(rest, f->g2);
 }
 
-/* Coordinates of u (eq. 5), refined once. */
-static inline void plane_frame_coordinates(plane_frame *f, const double u[3], const double a[3], const double b[3])
+/* Coordinates of u (eq. 5). */
+static inline void plane_frame_coordinates(plane_frame *f, const double u[3])
 {
     f->lambda = v3_dot(u, f->n) / f->n2;
     f->beta = v3_dot(u, f->g1);
     f->gamma = v3_dot(u, f->g2);
-    plane_frame_refine(f, u, a, b);
 }
 
-/* For a and b so nearly parallel that one refinement is not enough: refine again, then slide along a to the least distance, because
- * the error that is left points along a and b (section 6.3). Returns |u - beta a - gamma b|^2. */
+/* The foot itself, for a and b at a small angle: refine twice, then slide along a to the least distance, because the error that is left
+ * points along a and b (section 6.3). Returns |u - beta a - gamma b|^2. */
 static inline double plane_frame_settle(plane_frame *f, const double u[3], const double a[3], const double b[3])
 {
     double rest[3];
+    plane_frame_refine(f, u, a, b);
     plane_frame_refine(f, u, a, b);
     plane_frame_rest(f, rest, u, a, b);
     f->beta += v3_dot(rest, a) / v3_norm2(a);
@@ -89,7 +101,7 @@ static inline void plane_frame_of_point_plane(const double x[12], plane_frame *f
     v3_sub(a, x + 6, x + 3);
     v3_sub(b, x + 9, x + 3);
     plane_frame_directions(f, a, b);
-    plane_frame_coordinates(f, u, a, b);
+    plane_frame_coordinates(f, u);
     w[0] = 1.0;
     w[1] = f->beta + f->gamma - 1.0;
     w[2] = -f->beta;
@@ -104,7 +116,7 @@ static inline void plane_frame_of_line_line(const double x[12], plane_frame *f, 
     v3_sub(a, x + 3, x);
     v3_sub(b, x + 9, x + 6);
     plane_frame_directions(f, a, b);
-    plane_frame_coordinates(f, u, a, b);
+    plane_frame_coordinates(f, u);
     w[0] = 1.0 + f->beta;
     w[1] = -f->beta;
     w[2] = f->gamma - 1.0;
@@ -114,9 +126,9 @@ static inline void plane_frame_of_line_line(const double x[12], plane_frame *f, 
 /* Gradient (eq. 2): 2 w_i lambda n for the four nodes. */
 static inline void plane_frame_gradient(const plane_frame *f, const double w[4], double g[12])
 {
-    for (int i = 0; i < 4; i++) {
-        v3_scale(g + 3 * i, 2.0 * w[i] * f->lambda, f->n);
-    }
+    double twice_d[3];
+    v3_scale(twice_d, 2.0 * f->lambda, f->n);
+    for (int i = 0; i < 4; i++) v3_scale(g + 3 * i, w[i], twice_d);
 }
 
 /* Block (i, j) and its transpose: n y^T + z n^T. Writing both sides of each entry makes H symmetric to the last bit. */

@@ -1,6 +1,7 @@
 /* Squared distance of a point to the line through an edge. SPEC D.1; docs/theory/distance.md section 4. */
 #include "cipc/geometry.h"
 #include "base/vector.h"
+#include "geometry/nearest.h"
 
 /* With u = p - e0 and e = e1 - e0: the foot e0 + t e and the perpendicular d = p - foot (eq. 11). */
 typedef struct perpendicular {
@@ -24,11 +25,10 @@ static perpendicular drop(const double x[9])
 
 double cipc_point_line_distance2_value(const double x[9])
 {
-    double u[3], e[3], m[3];
+    double u[3], e[3];
     v3_sub(u, x, x + 3);
     v3_sub(e, x + 6, x + 3);
-    v3_cross(m, u, e);
-    return v3_norm2(m) / v3_norm2(e);
+    return line_distance2(u, e);
 }
 
 void cipc_point_line_distance2_gradient(const double x[9], double g[9])

@@ -34,7 +34,7 @@ static double inside_distance2(const double u[3], const double a[3], const doubl
 {
     plane_frame f;
     plane_frame_directions(&f, a, b);
-    plane_frame_coordinates(&f, u, a, b);
+    plane_frame_coordinates(&f, u);
     double distance2 = plane_frame_settle(&f, u, a, b);
     return f.n2 >= DBL_MIN && f.beta > 0.0 && f.gamma > 0.0 && f.beta + f.gamma < 1.0 ? distance2 : INFINITY;
 }
