@@ -62,12 +62,16 @@ static bool boxes_apart(const contact_local_path *local, double xi, double t_max
 {
     double slack = xi * (1 + 0x1p-50) + 0x1p-48 * local->size + DBL_MIN;
     for (int k = 0; k < 3; k++) {
-        double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
-        for (int i = 0; i < local->nodes; i++) {
-            int side = i >= local->first;
-            double from = local->y[3 * i + k], to = from + t_max * local->q[3 * i + k];
-            lo[side] = min2(lo[side], min2(from, to));
-            hi[side] = max2(hi[side], max2(from, to));
+        double lo[2], hi[2];
+        for (int side = 0; side < 2; side++) {
+            double least = INFINITY, most = -INFINITY;
+            for (int i = side ? local->first : 0; i < (side ? local->nodes : local->first); i++) {
+                double from = local->y[3 * i + k], to = from + t_max * local->q[3 * i + k];
+                least = min2(least, min2(from, to));
+                most = max2(most, max2(from, to));
+            }
+            lo[side] = least;
+            hi[side] = most;
         }
         if (lo[0] - hi[1] > slack || lo[1] - hi[0] > slack) return true;
     }

@@ -13,35 +13,42 @@
 #define ROUND_DOWN (1 - 8 * UNIT)
 /* (7) a length is off by less than 3 u, a sum by u; with two roundings of q before. */
 #define ROUND_UP (1 + 16 * UNIT)
+/* cot^2 of the angle from which a common normal is used as computed: it only has to be nearly the best direction. */
+#define CLEAR_COT2 15.0
 /* Outside of these ranges underflow or overflow could spoil the bounds: nothing is certified there. */
 #define SMALLEST 0x1p-300
 #define LARGEST  0x1p300
 
-static double largest_coordinate(const double *v, int n)
+static double largest_coordinate(const double *v, int nodes)
 {
-    double most = 0;
-    for (int i = 0; i < n; i++) most = max2(most, fabs(v[i]));
-    return most;
+    double most[3] = {0, 0, 0};
+    for (int i = 0; i < nodes; i++)
+        for (int k = 0; k < 3; k++) most[k] = max2(most[k], fabs(v[3 * i + k]));
+    return max2(max2(most[0], most[1]), most[2]);
 }
 
 /* (7) l_p: the largest displacement on each side, added; `unit` scales the displacements to where their squares neither vanish nor overflow. */
 static double speed_in_unit(const contact_local_path *local, double raw, int unit)
 {
-    double side[2] = {0, 0};
-    for (int i = 0; i < local->nodes; i++) {
-        double q[3];
-        for (int k = 0; k < 3; k++) q[k] = unit ? ldexp(local->q[3 * i + k], -unit) : local->q[3 * i + k];
-        side[i >= local->first] = max2(side[i >= local->first], v3_norm2(q));
+    double side[2];
+    for (int j = 0; j < 2; j++) {
+        side[j] = 0;
+        for (int i = j ? local->first : 0; i < (j ? local->nodes : local->first); i++) {
+            double q[3];
+            for (int k = 0; k < 3; k++) q[k] = unit ? ldexp(local->q[3 * i + k], -unit) : local->q[3 * i + k];
+            side[j] = max2(side[j], v3_norm2(q));
+        }
     }
     return (sqrt(side[0]) + sqrt(side[1])) * ROUND_UP + 4 * UNIT * (unit ? ldexp(raw, -unit) : raw);
 }
 
 static void set_speed(contact_local_path *local, double raw)
 {
-    double most = max2(largest_coordinate(local->q, 3 * local->nodes), raw);
     local->speed_unit = 0;
     local->speed = speed_in_unit(local, raw, 0);
-    if (most == 0 || (local->speed > SMALLEST && local->speed < LARGEST)) return;
+    if (local->speed > SMALLEST && local->speed < LARGEST) return;
+    double most = max2(largest_coordinate(local->q, local->nodes), raw);
+    if (most == 0) return;
     if (!isfinite(most)) { /* a difference has overflowed: no displacement exceeds four times the largest double */
         local->speed = 1;
         local->speed_unit = 1028;
@@ -53,25 +60,34 @@ static void set_speed(contact_local_path *local, double raw)
     local->speed_unit = unit + more;
 }
 
+/* NaN or infinity anywhere makes the sum one. */
+static bool all_finite(const cipc_stencil_path *path, int nodes)
+{
+    double sum[3] = {0, 0, 0};
+    for (int i = 0; i < nodes; i++)
+        for (int k = 0; k < 3; k++) sum[k] += 0 * path->x[3 * i + k] + 0 * path->p[3 * i + k];
+    return sum[0] + sum[1] + sum[2] == 0;
+}
+
 bool contact_local_path_init(contact_local_path *local, const cipc_stencil_path *path)
 {
     double common[3] = {0, 0, 0}, moved[12], raw = 0;
     local->kind = path->kind;
     local->nodes = cipc_pair_nodes(path->kind);
     local->first = cipc_pair_first_nodes(path->kind);
-    int n = 3 * local->nodes;
-    for (int i = 0; i < n; i++) moved[i] = path->to_end ? path->p[i] - path->x[i] : path->p[i];
-    for (int i = 0; i < n; i++) common[i % 3] += moved[i] / local->nodes; /* any vector serves: what matters is that all nodes lose the same */
-    for (int i = 0; i < n; i++) {
-        local->y[i] = path->x[i] - path->x[i % 3];
-        local->q[i] = moved[i] - common[i % 3];
+    double share = 1.0 / local->nodes; /* any common vector serves: what matters is that all nodes lose the same */
+    for (int i = 0; i < local->nodes; i++) {
+        for (int k = 3 * i; k < 3 * i + 3; k++) moved[k] = path->to_end ? path->p[k] - path->x[k] : path->p[k];
+        for (int k = 0; k < 3; k++) common[k] += moved[3 * i + k] * share;
     }
-    if (path->to_end) raw = largest_coordinate(moved, n);
-    local->size = largest_coordinate(local->y, n) + largest_coordinate(local->q, n) + raw;
+    for (int i = 0; i < local->nodes; i++) {
+        v3_sub(local->y + 3 * i, path->x + 3 * i, path->x);
+        v3_sub(local->q + 3 * i, moved + 3 * i, common);
+    }
+    if (path->to_end) raw = largest_coordinate(moved, local->nodes);
+    local->size = largest_coordinate(local->y, local->nodes) + largest_coordinate(local->q, local->nodes) + raw;
     set_speed(local, raw);
-    double sum = 0; /* NaN or infinity anywhere makes it one */
-    for (int i = 0; i < n; i++) sum += 0 * path->x[i] + 0 * path->p[i];
-    return sum == 0;
+    return all_finite(path, local->nodes);
 }
 
 /* (1) positions at time t. */
@@ -131,11 +147,12 @@ static void perpendicular(double n[3], const double u[3], const double e[3])
     v3_cross(n, e, m);
 }
 
-/* n := a x b, with its rounding error along a taken out (docs/theory/distance.md (9)). */
+/* n := a x b, at small angles with its rounding error along a taken out (docs/theory/distance.md (9)). */
 static void common_normal(double n[3], const double a[3], const double b[3])
 {
     v3_cross(n, a, b);
-    v3_axpy(n, -v3_dot(n, a) / v3_norm2(a), a);
+    double ab = v3_dot(a, b);
+    if (ab * ab > CLEAR_COT2 * v3_norm2(n)) v3_axpy(n, -v3_dot(n, a) / v3_norm2(a), a);
 }
 
 /* Normal of a feature, pointing from the second primitive to the first if the computed distance has a sign at all. */
