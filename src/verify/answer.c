@@ -7,6 +7,7 @@
 #include "verify/distance.h"
 #include "verify/energies.h"
 #include "verify/truth.h"
+#include "verify/two_triangles.h"
 
 static json_t *scalar_answer(const cipc_query *q, bool *good)
 {
@@ -115,6 +116,8 @@ json_t *verify_answer(const cipc_query *q)
         got = distance_answer(q, kind, &good);
     } else if (verify_function_level(q->fn) == 2) {
         got = energy_answer(q, &good);
+    } else if (verify_function_level(q->fn) == 4) {
+        got = verify_two_triangles_answer(q, &good);
     } else if (verify_function_level(q->fn) == 0) {
         got = scalar_answer(q, &good);
     } else if (strcmp(q->fn, "orient3d") == 0) {

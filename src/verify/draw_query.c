@@ -5,6 +5,7 @@
 #include "verify/conformance.h"
 #include "verify/energies.h"
 #include "verify/stencils.h"
+#include "verify/two_triangles.h"
 
 static void draw_scalar(const char *fn, gsl_rng *rng, cipc_query *q)
 {
@@ -74,13 +75,16 @@ void verify_draw_query(const char *fn, gsl_rng *rng, long sample, bool single, c
         verify_row unused;
         verify_describe_branches(&unused, energy);
         verify_draw_energy(energy, rng, sample, &unused, q->x, &params, q);
+    } else if (verify_function_level(fn) == 4) {
+        verify_two_triangles_draw(rng, q);
     } else if (verify_function_level(fn) == 0) {
         draw_scalar(fn, rng, q);
     } else {
         draw_points(fn, rng, q);
     }
     if (!single) return;
-    round_to_single(q->x, 15);
+    round_to_single(q->x, 18);
+    round_to_single(q->rest, 18);
     round_to_single(q->x1, 12);
     round_to_single(q->params, CIPC_ENERGY_NUMBERS);
     round_to_single(&q->thickness, 1);

@@ -36,6 +36,7 @@ static const function_entry table[] = {
     {"toi_point_edge", 3, 0},
     {"toi_point_triangle", 3, 0},
     {"toi_edge_edge", 3, 0},
+    {"potential/two_triangles", 4, 18},
 };
 enum { TABLE_COUNT = sizeof table / sizeof table[0] };
 

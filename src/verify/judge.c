@@ -6,6 +6,10 @@
 
 #include "base/json_number.h"
 #include "verify/conformance.h"
+#include "verify/two_triangles.h"
+
+/* Of one field: the Hessian of two triangles. */
+enum { MOST_NUMBERS = VERIFY_TWO_TRIANGLES_NUMBERS * VERIFY_TWO_TRIANGLES_NUMBERS };
 
 /* Rounding to float instead of double: u is 2^29 times larger, and with it every condition-based tolerance. */
 static double factor_of(verify_precision precision) { return precision == VERIFY_BINARY32 ? 0x1p29 : 1; }
@@ -45,10 +49,10 @@ static bool read_numbers(const json_t *value, const char *whose, const char *fie
 /* A field whose wanted numbers and tolerance are in the vector. */
 static void judge_numbers(const json_t *entry, const json_t *got, const char *field, double factor, verify_verdict *v)
 {
-    double want[144], have[144], tolerance;
+    double want[MOST_NUMBERS], have[MOST_NUMBERS], tolerance;
     const json_t *numbers = json_object_get(entry, "numbers");
     int count = (int)json_array_size(numbers);
-    if (count < 1 || count > 144 || !read_numbers(numbers, "want", field, count, want, v) ||
+    if (count < 1 || count > MOST_NUMBERS || !read_numbers(numbers, "want", field, count, want, v) ||
         !read_numbers(json_object_get(entry, "tolerance"), "want", "tolerance", 1, &tolerance, v)) {
         reject(v, "want \"%s\" is malformed", field);
         return;
@@ -82,7 +86,7 @@ static bool among(const json_t *set, const char *name)
 /* Finite numbers of the right count, whatever they are. */
 static void judge_presence(const json_t *got, const char *field, int count, verify_verdict *v)
 {
-    double have[144];
+    double have[MOST_NUMBERS];
     if (!read_numbers(got, "got", field, count, have, v)) return;
     for (int i = 0; i < count; i++)
         if (!isfinite(have[i])) reject(v, "%s[%d] is not finite", field, i);
@@ -109,6 +113,8 @@ static void judge_derivatives(const json_t *want, const json_t *got, int n, doub
         if (feature == NULL) reject(v, "got lacks \"feature\"");
         else if (!is_right_feature(want, feature, factor, &v->other_feature)) reject(v, "feature \"%.16s\" is not among those nearest", feature);
     }
+    const json_t *nearest = json_object_get(want, "border"); /* of an assembled potential: of all its pairs */
+    if (nearest != NULL && cipc_json_double(nearest) <= factor) v->other_feature = true;
     for (int i = 0; i < 2; i++) {
         const json_t *entry = json_object_get(want, fields[i]);
         judge_presence(json_object_get(got, fields[i]), fields[i], counts[i], v);
@@ -119,6 +125,7 @@ static void judge_derivatives(const json_t *want, const json_t *got, int n, doub
 static int numbers_of_stencil(const char *fn)
 {
     cipc_pair_kind kind;
+    if (verify_function_level(fn) == 4) return verify_query_numbers(fn);
     return verify_query_kind(fn, "distance2_", &kind) ? 3 * cipc_pair_nodes(kind) : 3 * cipc_energy_find(fn + 7)->nodes;
 }
 

@@ -227,7 +227,7 @@ cipc_status verify_judge_streams(FILE *vectors, const char *vectors_name, FILE *
 int verify_level_reached(const verify_judgement *j)
 {
     int level = -1;
-    for (int l = 0; l <= 3; l++) {
+    for (int l = 0; l <= VERIFY_HIGHEST_LEVEL; l++) {
         for (int f = 0; f < verify_function_count(); f++) {
             const char *fn = verify_function_at(f);
             if (verify_function_level(fn) != l) continue;

@@ -4,6 +4,7 @@
 #include "base/json_number.h"
 #include "cipc/verify.h"
 #include "verify/query.h"
+#include "verify/two_triangles.h"
 
 json_t *verify_numbers_json(const double *values, int count)
 {
@@ -43,6 +44,14 @@ static void put_toi(json_t *object, const cipc_query *q, cipc_pair_kind kind, bo
     cipc_json_put(object, "scale", cipc_json_number(q->scale), good);
 }
 
+static void put_potential(json_t *object, const cipc_query *q, bool *good)
+{
+    cipc_json_put(object, "rest", verify_numbers_json(q->rest, VERIFY_TWO_TRIANGLES_NUMBERS), good);
+    cipc_json_put(object, "thickness", cipc_json_number(q->thickness), good);
+    cipc_json_put(object, "dhat", cipc_json_number(q->params[VERIFY_DHAT]), good);
+    cipc_json_put(object, "stiffness", cipc_json_number(q->params[VERIFY_STIFFNESS]), good);
+}
+
 bool verify_query_kind(const char *fn, const char *prefix, cipc_pair_kind *kind)
 {
     size_t length = strlen(prefix);
@@ -68,6 +77,7 @@ json_t *cipc_query_json(const cipc_query *q, long id)
         cipc_json_put(object, "params", params_json(energy, q->params), &good);
     } else {
         cipc_json_put(object, "x", verify_numbers_json(q->x, verify_query_numbers(q->fn)), &good);
+        if (verify_function_level(q->fn) == 4) put_potential(object, q, &good);
     }
     if (!good) json_decref(object);
     return good ? object : NULL;

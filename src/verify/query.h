@@ -15,7 +15,8 @@ const char *verify_function_name(const char *name);
 enum { VERIFY_FUNCTION_LIMIT = 64 };
 int verify_function_count(void);
 const char *verify_function_at(int index);
-/* 0 scalars, 1 stencils, 2 elements, 3 continuous collision detection (docs/conformance.md). fn: the table's own string, here and below. */
+/* 0 scalars, 1 stencils, 2 elements, 3 continuous collision detection, 4 assembled potential (docs/conformance.md). fn: the table's own string, here and below. */
+enum { VERIFY_HIGHEST_LEVEL = 4 };
 int verify_function_level(const char *fn);
 
 /* Numbers of an array field; the inverse of cipc_query_json. fn: the table's own string. place: for messages. CIPC_E_BAD_QUERY with the field and what is wrong. */

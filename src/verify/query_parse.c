@@ -3,7 +3,9 @@
 #include <string.h>
 
 #include "base/json_number.h"
+#include "base/vector.h"
 #include "verify/query.h"
+#include "verify/two_triangles.h"
 
 static cipc_status refuse(const char *place, cipc_error *error, const char *field, const char *what)
 {
@@ -48,6 +50,31 @@ static cipc_status read_toi(const json_t *object, cipc_pair_kind kind, const cha
     return status;
 }
 
+static bool has_area(const double rest[9])
+{
+    double a[3], b[3], n[3];
+    v3_sub(a, rest + 3, rest);
+    v3_sub(b, rest + 6, rest);
+    v3_cross(n, a, b);
+    return v3_norm2(n) > 0;
+}
+
+/* The thickness has a default: none. */
+static cipc_status read_potential(const json_t *object, const char *place, cipc_query *q, cipc_error *error)
+{
+    const json_t *thickness = json_object_get(object, "thickness");
+    cipc_status status = verify_read_numbers(json_object_get(object, "x"), place, "x", VERIFY_TWO_TRIANGLES_NUMBERS, q->x, error);
+    if (status == CIPC_OK) status = verify_read_numbers(json_object_get(object, "rest"), place, "rest", VERIFY_TWO_TRIANGLES_NUMBERS, q->rest, error);
+    if (status == CIPC_OK) status = read_number(json_object_get(object, "dhat"), place, "dhat", &q->params[VERIFY_DHAT], error);
+    if (status == CIPC_OK) status = read_number(json_object_get(object, "stiffness"), place, "stiffness", &q->params[VERIFY_STIFFNESS], error);
+    if (status == CIPC_OK && thickness != NULL) status = read_number(thickness, place, "thickness", &q->thickness, error);
+    if (status == CIPC_OK && q->thickness < 0) status = refuse(place, error, "thickness", "is negative");
+    if (status == CIPC_OK && !(q->params[VERIFY_DHAT] > 0)) status = refuse(place, error, "dhat", "is not positive");
+    if (status == CIPC_OK && !(q->params[VERIFY_STIFFNESS] > 0)) status = refuse(place, error, "stiffness", "is not positive");
+    if (status == CIPC_OK && !(has_area(q->rest) && has_area(q->rest + 9))) status = refuse(place, error, "rest", "holds a triangle without area");
+    return status;
+}
+
 static int feature_named(const char *name)
 {
     for (int i = 0; name != NULL && i < cipc_feature_count(CIPC_EDGE_EDGE); i++)
@@ -84,6 +111,7 @@ cipc_status verify_query_parse(const json_t *object, const char *fn, const char 
     memset(q, 0, sizeof *q);
     q->fn = fn;
     if (verify_query_kind(fn, "toi_", &kind)) return read_toi(object, kind, place, q, error);
+    if (verify_function_level(fn) == 4) return read_potential(object, place, q, error);
     if (strncmp(fn, "energy/", 7) == 0) return read_energy(object, cipc_energy_find(fn + 7), place, q, error);
     return verify_read_numbers(json_object_get(object, "x"), place, "x", verify_query_numbers(fn), q->x, error);
 }

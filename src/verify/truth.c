@@ -6,9 +6,9 @@
 #include "verify/condition.h"
 #include "verify/conformance.h"
 #include "verify/truth.h"
+#include "verify/two_triangles.h"
 
-/* {"value": .., "tolerance": .., ...}: numbers with the absolute error that the condition of the case allows (class cond:16 of binary64). */
-static void put_numbers(json_t *want, const char *key, const double *values, int count, double tolerance, bool *good)
+void verify_put_numbers(json_t *want, const char *key, const double *values, int count, double tolerance, bool *good)
 {
     json_t *entry = json_object();
     *good = *good && entry != NULL && isfinite(tolerance);
@@ -29,7 +29,7 @@ static bool scalar_truth(const cipc_query *q, json_t *want)
     const double tolerance[3] = {u * (fabs(f[0]) * (1 + sharpness) + fabs(f[1]) * reach), u * (fabs(f[1]) * (1 + sharpness) + fabs(f[2]) * reach),
                                  u * fabs(f[2]) * (2 + 2 * sharpness)};
     static const char *const names[3] = {"f0", "f1", "f2"};
-    for (int i = 0; i < 3; i++) put_numbers(want, names[i], &f[i], 1, tolerance[i], &good);
+    for (int i = 0; i < 3; i++) verify_put_numbers(want, names[i], &f[i], 1, tolerance[i], &good);
     return good;
 }
 
@@ -58,18 +58,36 @@ static bool differentiate(const cipc_oracle_function *f, const double *x, const 
 /* The oracle's functions of the flats of a feature. */
 static const char *const flat_names[CIPC_PAIR_KIND_COUNT] = {"distance2_point_point", "distance2_point_line", "distance2_point_plane", "distance2_line_line"};
 
+/* Tolerance e of d (4). */
+static double distance_tolerance(cipc_pair_kind kind, const double *x) { return 2 * VERIFY_DISTANCE_ULPS * VERIFY_UNIT * size_of(x, 3 * cipc_pair_nodes(kind)); }
+
+/* How far the distance of feature i's flats is from d, in units of e; INFINITY: there are no such flats. */
+static double neighbour_off(cipc_pair_kind kind, const double *x, int i, double d, double e)
+{
+    cipc_feature feature = cipc_feature_at(kind, i);
+    double y[12], value;
+    for (int k = 0; k < feature.count; k++) memcpy(y + 3 * k, x + 3 * feature.local[k], 3 * sizeof *y);
+    if (!(e > 0) || cipc_oracle_evaluate(cipc_oracle_function_find(flat_names[feature.kind]), y, NULL, &value, NULL, NULL) != CIPC_YES) return INFINITY;
+    return fabs(sqrt(value) - d) / e;
+}
+
+double verify_nearest_border(cipc_pair_kind kind, const double *x, unsigned features)
+{
+    double d = sqrt(cipc_exact_distance2(kind, x, NULL)), e = distance_tolerance(kind, x), nearest = INFINITY;
+    if ((features & (features - 1)) != 0) return 0;
+    for (int i = 0; i < cipc_feature_count(kind); i++)
+        if (!(features >> i & 1)) nearest = fmin(nearest, neighbour_off(kind, x, i, d, e));
+    return nearest;
+}
+
 /* Features beside those that attain the minimum whose own flats are at nearly its distance: how far off they are, in units of the tolerance e of d. Written as far as
  * a port in floats may confuse them. */
 static json_t *neighbours(const cipc_query *q, cipc_pair_kind kind, unsigned features, double d, double e, bool *good)
 {
     json_t *object = json_object();
     for (int i = 0; i < cipc_feature_count(kind); i++) {
-        cipc_feature feature = cipc_feature_at(kind, i);
-        double y[12], value, off;
         if (features >> i & 1) continue;
-        for (int k = 0; k < feature.count; k++) memcpy(y + 3 * k, q->x + 3 * feature.local[k], 3 * sizeof *y);
-        if (cipc_oracle_evaluate(cipc_oracle_function_find(flat_names[feature.kind]), y, NULL, &value, NULL, NULL) != CIPC_YES) continue;
-        off = e > 0 ? fabs(sqrt(value) - d) / e : INFINITY;
+        double off = neighbour_off(kind, q->x, i, d, e);
         if (off <= 0x1p29) cipc_json_put(object, cipc_feature_name(kind, i), cipc_json_number(off), good);
     }
     return object;
@@ -81,9 +99,9 @@ static bool distance_truth(const cipc_query *q, cipc_pair_kind kind, json_t *wan
     int n = 3 * cipc_pair_nodes(kind), only = -1;
     unsigned features;
     bool good = true;
-    double d2 = cipc_exact_distance2(kind, q->x, &features), e = 2 * VERIFY_DISTANCE_ULPS * VERIFY_UNIT * size_of(q->x, n);
+    double d2 = cipc_exact_distance2(kind, q->x, &features), e = distance_tolerance(kind, q->x);
     json_t *set = json_array();
-    put_numbers(want, "value", &d2, 1, (2 * sqrt(d2) + e) * e + VERIFY_UNIT * d2, &good);
+    verify_put_numbers(want, "value", &d2, 1, (2 * sqrt(d2) + e) * e + VERIFY_UNIT * d2, &good);
     for (int i = 0; i < cipc_feature_count(kind); i++) {
         if (!(features >> i & 1)) continue;
         only = only == -1 ? i : -2;
@@ -98,8 +116,8 @@ static bool distance_truth(const cipc_query *q, cipc_pair_kind kind, json_t *wan
         for (int i = 0; i < feature.count; i++) memcpy(y + 3 * i, q->x + 3 * feature.local[i], 3 * sizeof *y);
         if (!differentiate(cipc_oracle_function_find(flat_names[feature.kind]), y, NULL, &d)) return good;
         verify_scatter(&feature, n, d.g, d.H, g, H);
-        put_numbers(want, "gradient", g, n, d.tolerance.gradient, &good);
-        if (isfinite(d.tolerance.hessian)) put_numbers(want, "hessian", H, n * n, d.tolerance.hessian, &good);
+        verify_put_numbers(want, "gradient", g, n, d.tolerance.gradient, &good);
+        if (isfinite(d.tolerance.hessian)) verify_put_numbers(want, "hessian", H, n * n, d.tolerance.hessian, &good);
     }
     return good;
 }
@@ -111,9 +129,9 @@ static bool energy_truth(const cipc_query *q, json_t *want)
     derivatives d;
     bool good = true;
     if (!differentiate(f, q->x, q->params, &d)) return false;
-    put_numbers(want, "value", &d.value, 1, d.tolerance.value, &good);
-    put_numbers(want, "gradient", d.g, n, d.tolerance.gradient, &good);
-    if (isfinite(d.tolerance.hessian)) put_numbers(want, "hessian", d.H, n * n, d.tolerance.hessian, &good);
+    verify_put_numbers(want, "value", &d.value, 1, d.tolerance.value, &good);
+    verify_put_numbers(want, "gradient", d.g, n, d.tolerance.gradient, &good);
+    if (isfinite(d.tolerance.hessian)) verify_put_numbers(want, "hessian", d.H, n * n, d.tolerance.hessian, &good);
     return good;
 }
 
@@ -147,6 +165,8 @@ json_t *verify_truth(const cipc_query *q)
         good = good && distance_truth(q, kind, want);
     } else if (verify_function_level(q->fn) == 2) {
         good = good && energy_truth(q, want);
+    } else if (verify_function_level(q->fn) == 4) {
+        good = good && verify_two_triangles_truth(q, want);
     } else if (verify_function_level(q->fn) == 0) {
         good = good && scalar_truth(q, want);
     } else if (strcmp(q->fn, "orient3d") == 0) {

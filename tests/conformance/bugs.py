@@ -75,6 +75,23 @@ def missed(cipc, q):
     return {"toi": 1.0, "hit": False}
 
 
+def without_edges(cipc, q):
+    """Point-triangle pairs alone."""
+    x, xi, total = q["x"], q["thickness"], 0.0
+    reach = (xi + q["dhat"]) ** 2 - xi ** 2
+    for i in range(6):
+        other = x[9:18] if i < 3 else x[0:9]
+        d2 = evaluate(cipc, {"id": 1, "fn": "distance2_point_triangle", "x": x[3 * i:3 * i + 3] + other})["value"]
+        total += q["stiffness"] * evaluate(cipc, {"id": 1, "fn": "barrier", "x": [d2 - xi ** 2, reach]})["f"][0]
+    return {**evaluate(cipc, q), "value": total}
+
+
+def each_stencil_once(cipc, q):
+    """Six pairs share one closest feature: it is kept once, without its multiplicity."""
+    got = scaled(evaluate(cipc, q), 1 / 6)
+    return {**got, "value": got["value"] / 6}
+
+
 BUGS = {
     "barrier-hessian-bracket": lost_bracket,
     "factor-two": lambda c, q: scaled(evaluate(c, q), 0.5) if "f" not in evaluate(c, q) else {"f": [0.5 * v for v in evaluate(c, q)["f"]]},
@@ -110,6 +127,10 @@ BUGS = {
     "near-parallel-missed": missed,
     "started-in-contact": missed,
     "zero-length-edge": missed,
+    "stencils-counted-once": each_stencil_once,
+    "edge-edge-pairs-forgotten": without_edges,
+    "mollifier-not-assembled": lambda c, q: evaluate(c, {**q, "rest": [1e-3 * v for v in q["rest"]]}),
+    "potential-thickness": lambda c, q: evaluate(c, {**q, "thickness": 0.0}),
 }
 
 
