@@ -102,7 +102,7 @@ mutants: ## plant every fault of ci/mutants.list and see the named check reject 
 COVERAGE_FLAGS := --coverage -fprofile-update=atomic
 coverage: ## line coverage per folder of src/; fails below 95 % in geometry, energy, contact and implicit (build/coverage)
 	@find $(BUILD)/coverage -name '*.gcda' -delete 2>/dev/null || true # counts of earlier runs
-	$(SUBMAKE) verdict BUILD=$(BUILD)/coverage CC=gcc CHECKS= WERROR= OPTIMIZE='-O1 -g' CFLAGS='$(COVERAGE_FLAGS) $(CFLAGS)' \
+	$(SUBMAKE) verdict BUILD=$(BUILD)/coverage CC=gcc CHECKS="'tests/conformance/check $(BUILD)/coverage'" WERROR= OPTIMIZE='-O1 -g' CFLAGS='$(COVERAGE_FLAGS) $(CFLAGS)' \
 	    LDFLAGS='$(COVERAGE_FLAGS) $(LDFLAGS)'
 	@ci/coverage $(BUILD)/coverage
 
