@@ -46,9 +46,14 @@ static cipc_status sum_contacts(const cipc_model *model, const cipc_query *q, su
         const cipc_energy *energy = cipc_energy_entry(c->energy);
         double y[12], g[12], H[144];
         for (int k = 0; k < c->count; k++) memcpy(y + 3 * k, q->x + 3 * c->nodes[k], 3 * sizeof *y);
+        double value = energy->value(y, &c->barrier);
+        if (!isfinite(value)) { /* infeasible: there are no derivatives to ask for */
+            s->value = value;
+            break;
+        }
         energy->gradient(y, &c->barrier, g);
         energy->hessian(y, &c->barrier, H);
-        scatter(s, c->nodes, c->count, energy->value(y, &c->barrier), g, H);
+        scatter(s, c->nodes, c->count, value, g, H);
     }
     cipc_contact_set_free(&set);
     cipc_candidates_free(&candidates);
@@ -109,6 +114,17 @@ static double rest_length2(const double *rest, int i, int j)
     return sum;
 }
 
+/* Do the edges get the mollifier, |a x b|^2 < eps? Asked of the oracle a little to both sides of eps: where the answers differ, the Hessian jumps and rounding decides
+ * the side: INDETERMINATE. */
+static cipc_verdict is_mollified(const double *y, double eps)
+{
+    const cipc_oracle_function *f = cipc_oracle_function_find("edge_edge_mollifier");
+    double low = eps * (1 - 1e-6), high = eps * (1 + 1e-6), at_low, at_high;
+    if (cipc_oracle_evaluate(f, y, &low, &at_low, NULL, NULL) != CIPC_YES || cipc_oracle_evaluate(f, y, &high, &at_high, NULL, NULL) != CIPC_YES) return CIPC_INDETERMINATE;
+    if ((at_low < 1) != (at_high < 1)) return CIPC_INDETERMINATE;
+    return at_low < 1 ? CIPC_YES : CIPC_NO;
+}
+
 /* What has been summed: numbers, their tolerances, and how near the nearest border between two features is (verify_neighbour_off). */
 typedef struct truth_sums {
     sums sum;
@@ -137,7 +153,7 @@ static bool add_pair(truth_sums *t, const cipc_query *q, int pair)
 {
     static const char *const names[CIPC_PAIR_KIND_COUNT] = {"barrier_point_point", "barrier_point_edge", "barrier_point_triangle", "barrier_edge_edge"};
     int nodes[4], part[4], first = 0;
-    double y[12], cross2 = 0;
+    double y[12];
     unsigned features;
     cipc_pair_kind kind = pair_nodes(pair, nodes);
     for (int k = 0; k < 4; k++) memcpy(y + 3 * k, q->x + 3 * nodes[k], 3 * sizeof *y);
@@ -150,9 +166,9 @@ static bool add_pair(truth_sums *t, const cipc_query *q, int pair)
     double eps = 0, fields[6] = {q->params[VERIFY_STIFFNESS], 1, q->thickness, q->params[VERIFY_DHAT], 0, first};
     if (kind == CIPC_EDGE_EDGE) {
         eps = MOLLIFIER_SHARE * rest_length2(q->rest, nodes[0], nodes[1]) * rest_length2(q->rest, nodes[2], nodes[3]);
-        cross2 = cipc_edge_edge_cross2(y);
-        if (fabs(cross2 - eps) < 1e-6 * eps) return false; /* the Hessian jumps at the mollifier's end, and rounding decides the side */
-        if (cross2 < eps) {
+        cipc_verdict mollified = is_mollified(y, eps);
+        if (mollified == CIPC_INDETERMINATE) return false;
+        if (mollified == CIPC_YES) {
             fields[4] = eps;
             return add_term(t, names[CIPC_EDGE_EDGE], q->x, nodes, fields);
         }
