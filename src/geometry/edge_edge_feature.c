@@ -50,7 +50,7 @@ static double inside_distance2(const double u[3], const double a[3], const doubl
     return f.n2 >= DBL_MIN && s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 ? distance2 : INFINITY;
 }
 
-/* Near-parallel or zero-length edges: the nearest of the four ends against the other edge, unless the interior is truly nearer. */
+/* Out of line, so that its variables take no registers from the usual case. Near-parallel or zero-length edges: the nearest of the four ends against the other edge, unless the interior is truly nearer. */
 __attribute__((noinline, cold)) static cipc_feature by_exhaustion(const double x[12], const double u[3], const double a[3], const double b[3])
 {
     nearest_feature best = {INFINITY, feature_point_point(0, 2)};

@@ -15,7 +15,7 @@ typedef struct plane_frame {
     double beta, gamma, lambda;
 } plane_frame;
 
-/* cot^2 of the angle between a and b up to which the cross product is good enough as it is: sin >= 1/3 (section 5). */
+/* cot^2 of the angle between a and b up to which the cross product is good enough as it is: sin >= 1/4 (section 5). */
 #define PLANE_CLEAR_COT2 15.0
 
 static inline bool plane_is_clear(double n2, const double a[3], const double b[3])
