@@ -10,17 +10,25 @@
 #include "cipc/geometry.h"
 #include "cipc/model.h"
 
-/* What may touch: every node against every triangle and every edge against every edge that share no node and are not wholly Dirichlet
- * (SPEC D.1). Indices into the model's nodes, triangles and edges. */
+/* What may touch (SPEC C.4, D.1; docs/theory/contact.md): of pairs that share no node, meet at all (cipc_model_meet) and are not wholly Dirichlet,
+ * - every node that is not inside a volume against every triangle,
+ * - every edge against every edge,
+ * - every node of rods and every particle against every segment: edge-edge leaves out parallel segments, which the mollifier switches off,
+ * - every particle against every particle.
+ * A list for each cipc_pair_kind; indices into the model's nodes, triangles and edges, the point or the lower index first. */
+typedef struct cipc_candidate_list {
+    int count, capacity;
+    int (*pairs)[2];
+} cipc_candidate_list;
 typedef struct cipc_candidates {
-    int point_triangle_count, edge_edge_count;
-    int (*point_triangle)[2];  /* node, triangle */
-    int (*edge_edge)[2];       /* edge a < edge b */
-    int point_triangle_capacity, edge_edge_capacity;
+    cipc_candidate_list lists[CIPC_PAIR_KIND_COUNT];
 } cipc_candidates;
+long cipc_candidates_count(const cipc_candidates *candidates);
+/* The i-th of all: point-triangle pairs first, then edge-edge, point-edge, point-point. */
+const int *cipc_candidates_pair(const cipc_candidates *candidates, long index, cipc_pair_kind *kind);
 void cipc_candidates_free(cipc_candidates *candidates);
 
-/* Broad phase: box trees over triangles and edges, kept between calls. */
+/* Broad phase: box trees over triangles, edges, segments and particles, kept between calls. */
 typedef struct cipc_broad_phase cipc_broad_phase;
 cipc_status cipc_broad_phase_create(cipc_broad_phase **broad_phase, const cipc_model *model, cipc_error *error);
 void cipc_broad_phase_destroy(cipc_broad_phase *broad_phase);
@@ -99,10 +107,10 @@ cipc_ccd_result cipc_cubic_ccd(const cipc_stencil_path *path, double thickness, 
 /* By options->method. */
 cipc_ccd_result cipc_ccd(const cipc_stencil_path *path, double thickness, double t_max, const cipc_ccd_options *options);
 
-/* The smallest step of cipc_additive_ccd over all candidates on the path x + t p, t in [0, t_max]; the limiting stencil's nodes and kind in
- * *nodes and *edge_edge (may be NULL; -1 if nothing limits). Thickness is each pair's xi. */
+/* The smallest step of cipc_ccd over all candidates on the path x + t p, t in [0, t_max]; the limiting stencil's nodes and kind in
+ * *nodes and *kind (may be NULL; nodes -1 if nothing limits). Thickness is each pair's xi. */
 double cipc_candidates_ccd(const cipc_model *model, const cipc_candidates *candidates, const double *x, const double *p, double t_max,
-                           const cipc_ccd_options *options, int threads, int nodes[4], bool *edge_edge);
+                           const cipc_ccd_options *options, int threads, int nodes[4], cipc_pair_kind *kind);
 
 /* Barrier stiffness of SPEC D.4 (bounding-box rule) or C.7 (as released). */
 typedef struct cipc_stiffness_range { double minimum, maximum; } cipc_stiffness_range;

@@ -18,9 +18,11 @@ typedef struct pair_list {
 } pair_list;
 
 struct cipc_broad_phase {
-    cipc_box *node_boxes, *triangle_boxes, *edge_boxes;
-    cipc_box_tree *triangle_tree, *edge_tree;
+    cipc_box *node_boxes, *triangle_boxes, *edge_boxes, *particle_boxes;
+    cipc_box_tree *triangle_tree, *edge_tree, *segment_tree, *particle_tree; /* NULL: none of that kind */
+    int *particles, particle_count;                                          /* nodes that are particles */
     pair_list pieces[PIECES];
+    bool built; /* all trees that the model needs are there */
     int refits; /* since the trees were built */
 };
 
@@ -44,6 +46,8 @@ static void append_pair(pair_list *list, int a, int b)
     list->count++;
 }
 
+static cipc_body_kind kind_of(const cipc_model *model, int node) { return model->bodies[model->node_body[node]].kind; }
+
 cipc_status cipc_broad_phase_create(cipc_broad_phase **broad_phase, const cipc_model *model, cipc_error *error)
 {
     cipc_broad_phase *b = cipc_alloc(1, sizeof *b);
@@ -52,10 +56,26 @@ cipc_status cipc_broad_phase_create(cipc_broad_phase **broad_phase, const cipc_m
     b->node_boxes = cipc_alloc((size_t)model->node_count, sizeof(cipc_box));
     b->triangle_boxes = cipc_alloc((size_t)model->triangle_count, sizeof(cipc_box));
     b->edge_boxes = cipc_alloc((size_t)model->edge_count, sizeof(cipc_box));
-    if (b->node_boxes && b->triangle_boxes && b->edge_boxes) return CIPC_OK;
+    b->particle_boxes = cipc_alloc((size_t)model->node_count, sizeof(cipc_box));
+    b->particles = cipc_alloc((size_t)model->node_count, sizeof(int));
+    if (b->node_boxes && b->triangle_boxes && b->edge_boxes && b->particle_boxes && b->particles) {
+        for (int i = 0; i < model->node_count; i++)
+            if (kind_of(model, i) == CIPC_BODY_PARTICLES) b->particles[b->particle_count++] = i;
+        return CIPC_OK;
+    }
     cipc_broad_phase_destroy(b);
     *broad_phase = NULL;
     return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "broad phase", "no memory for %d nodes", model->node_count);
+}
+
+static void destroy_trees(cipc_broad_phase *b)
+{
+    cipc_box_tree **trees[] = {&b->triangle_tree, &b->edge_tree, &b->segment_tree, &b->particle_tree};
+    for (size_t i = 0; i < sizeof trees / sizeof *trees; i++) {
+        cipc_box_tree_destroy(*trees[i]);
+        *trees[i] = NULL;
+    }
+    b->built = false;
 }
 
 void cipc_broad_phase_destroy(cipc_broad_phase *b)
@@ -64,8 +84,9 @@ void cipc_broad_phase_destroy(cipc_broad_phase *b)
     cipc_free(b->node_boxes);
     cipc_free(b->triangle_boxes);
     cipc_free(b->edge_boxes);
-    cipc_box_tree_destroy(b->triangle_tree);
-    cipc_box_tree_destroy(b->edge_tree);
+    cipc_free(b->particle_boxes);
+    cipc_free(b->particles);
+    destroy_trees(b);
     for (int i = 0; i < PIECES; i++) cipc_free(b->pieces[i].pairs);
     cipc_free(b);
 }
@@ -100,63 +121,94 @@ static void swept_boxes(cipc_broad_phase *b, const cipc_model *model, const doub
     }
     for (int e = 0; e < model->edge_count; e++)
         b->edge_boxes[e] = box_union(&b->node_boxes[model->edges[e][0]], &b->node_boxes[model->edges[e][1]]);
+    for (int i = 0; i < b->particle_count; i++) b->particle_boxes[i] = b->node_boxes[b->particles[i]];
+}
+
+static cipc_status build_tree(cipc_box_tree **tree, const cipc_box *boxes, int count, cipc_error *error)
+{
+    return count > 0 ? cipc_box_tree_create(tree, boxes, count, error) : CIPC_OK;
+}
+
+static cipc_status build_trees(cipc_broad_phase *b, const cipc_model *model, cipc_error *error)
+{
+    destroy_trees(b);
+    b->refits = 0;
+    cipc_status status = build_tree(&b->triangle_tree, b->triangle_boxes, model->triangle_count, error);
+    if (!status) status = build_tree(&b->edge_tree, b->edge_boxes, model->edge_count, error);
+    if (!status) status = build_tree(&b->segment_tree, b->edge_boxes + model->first_segment, model->segment_count, error);
+    if (!status) status = build_tree(&b->particle_tree, b->particle_boxes, b->particle_count, error);
+    b->built = !status;
+    return status;
 }
 
 static cipc_status update_trees(cipc_broad_phase *b, const cipc_model *model, cipc_error *error)
 {
-    /* After a failure one tree or both may be missing. */
-    if (b->triangle_tree && b->edge_tree && b->refits < REFITS_PER_BUILD) {
-        b->refits++;
-        cipc_box_tree_refit(b->triangle_tree, b->triangle_boxes);
-        cipc_box_tree_refit(b->edge_tree, b->edge_boxes);
-        return CIPC_OK;
-    }
-    cipc_box_tree_destroy(b->triangle_tree);
-    cipc_box_tree_destroy(b->edge_tree);
-    b->triangle_tree = b->edge_tree = NULL;
-    b->refits = 0;
-    cipc_status status = cipc_box_tree_create(&b->triangle_tree, b->triangle_boxes, model->triangle_count, error);
-    return status ? status : cipc_box_tree_create(&b->edge_tree, b->edge_boxes, model->edge_count, error);
+    if (!b->built || b->refits >= REFITS_PER_BUILD) return build_trees(b, model, error);
+    b->refits++;
+    if (b->triangle_tree) cipc_box_tree_refit(b->triangle_tree, b->triangle_boxes);
+    if (b->edge_tree) cipc_box_tree_refit(b->edge_tree, b->edge_boxes);
+    if (b->segment_tree) cipc_box_tree_refit(b->segment_tree, b->edge_boxes + model->first_segment);
+    if (b->particle_tree) cipc_box_tree_refit(b->particle_tree, b->particle_boxes);
+    return CIPC_OK;
 }
 
+/* One asking primitive. */
 typedef struct query {
     const cipc_model *model;
-    const bool *is_dirichlet; /* may be NULL */
+    const cipc_broad_phase *broad_phase;
+    const bool *is_dirichlet;
     pair_list *list;
     int item;                 /* the node or edge asking */
+    int nodes[2], node_count; /* its nodes */
     bool item_is_dirichlet;
 } query;
 
-static bool dirichlet(const bool *is_dirichlet, int node) { return is_dirichlet && is_dirichlet[node]; }
-
-static bool edge_is_dirichlet(const query *q, int edge)
+static bool all_dirichlet(const bool *is_dirichlet, const int *nodes, int count)
 {
-    return dirichlet(q->is_dirichlet, q->model->edges[edge][0]) && dirichlet(q->is_dirichlet, q->model->edges[edge][1]);
+    for (int i = 0; i < count; i++)
+        if (!is_dirichlet || !is_dirichlet[nodes[i]]) return false;
+    return true;
 }
 
-static bool triangle_is_dirichlet(const query *q, int triangle)
+/* Do the asking primitive and that of `nodes` meet, and is one of them free? */
+static bool is_wanted(const query *q, const int *nodes, int count)
 {
-    const int *v = q->model->triangles[triangle];
-    return dirichlet(q->is_dirichlet, v[0]) && dirichlet(q->is_dirichlet, v[1]) && dirichlet(q->is_dirichlet, v[2]);
+    if (q->item_is_dirichlet && all_dirichlet(q->is_dirichlet, nodes, count)) return false;
+    return cipc_model_meet(q->model, q->nodes, q->node_count, nodes, count);
 }
 
 static void visit_triangle(void *context, int triangle)
 {
     query *q = context;
-    const int *v = q->model->triangles[triangle];
-    if (v[0] == q->item || v[1] == q->item || v[2] == q->item) return;
-    if (q->item_is_dirichlet && triangle_is_dirichlet(q, triangle)) return;
-    append_pair(q->list, q->item, triangle);
+    if (is_wanted(q, q->model->triangles[triangle], 3)) append_pair(q->list, q->item, triangle);
 }
 
-/* Free edges ask all; a pair of two free edges is taken by the lower one, a pair with a Dirichlet edge by the free one. */
+static void visit_segment(void *context, int segment)
+{
+    query *q = context;
+    int edge = q->model->first_segment + segment;
+    if (is_wanted(q, q->model->edges[edge], 2)) append_pair(q->list, q->item, edge);
+}
+
+/* Among primitives of one kind the free ones ask all; a pair of two free ones is taken by the lower one, a pair with a Dirichlet one by the free one. */
+static void take_once(query *q, int other, const int *nodes, int count)
+{
+    if (other < q->item && !all_dirichlet(q->is_dirichlet, nodes, count)) return;
+    if (!cipc_model_meet(q->model, q->nodes, q->node_count, nodes, count)) return;
+    append_pair(q->list, other < q->item ? other : q->item, other < q->item ? q->item : other);
+}
+
 static void visit_edge(void *context, int edge)
 {
     query *q = context;
-    const int *a = q->model->edges[q->item], *b = q->model->edges[edge];
-    if (a[0] == b[0] || a[0] == b[1] || a[1] == b[0] || a[1] == b[1]) return;
-    if (edge < q->item && !edge_is_dirichlet(q, edge)) return;
-    append_pair(q->list, edge < q->item ? edge : q->item, edge < q->item ? q->item : edge);
+    take_once(q, edge, q->model->edges[edge], 2);
+}
+
+static void visit_particle(void *context, int place)
+{
+    query *q = context;
+    int node = q->broad_phase->particles[place];
+    take_once(q, node, &node, 1);
 }
 
 static int compare_pairs(const void *a, const void *b)
@@ -171,48 +223,70 @@ static void sort_found(pair_list *list, int first)
     if (list->count - first > 1) qsort(list->pairs + first, (size_t)(list->count - first), sizeof *list->pairs, compare_pairs);
 }
 
-/* All queries of nodes (edges false) or edges (true) of one piece. Sorted per query: the order does not depend on the trees. */
-static void query_piece(cipc_broad_phase *b, const cipc_model *model, const bool *is_dirichlet, bool edges, int piece)
+/* Let a node ask for what it may touch of one kind. */
+static void ask_node(cipc_broad_phase *b, query *q, cipc_pair_kind kind)
+{
+    cipc_body_kind body = kind_of(q->model, q->item);
+    const cipc_box *box = &b->node_boxes[q->item];
+    if (kind == CIPC_POINT_TRIANGLE) {
+        if (b->triangle_tree && !q->model->interior[q->item]) cipc_box_tree_query(b->triangle_tree, box, visit_triangle, q, NULL);
+    } else if (kind == CIPC_POINT_EDGE) {
+        if (b->segment_tree && (body == CIPC_BODY_RODS || body == CIPC_BODY_PARTICLES)) cipc_box_tree_query(b->segment_tree, box, visit_segment, q, NULL);
+    } else if (body == CIPC_BODY_PARTICLES && !q->item_is_dirichlet) {
+        cipc_box_tree_query(b->particle_tree, box, visit_particle, q, NULL);
+    }
+}
+
+/* All queries of one kind of one piece. Sorted per query: the order does not depend on the trees. */
+static void query_piece(cipc_broad_phase *b, const cipc_model *model, const bool *is_dirichlet, cipc_pair_kind kind, int piece)
 {
     pair_list *list = &b->pieces[piece];
-    query q = {.model = model, .is_dirichlet = is_dirichlet, .list = list};
+    bool edges = kind == CIPC_EDGE_EDGE;
+    query q = {.model = model, .broad_phase = b, .is_dirichlet = is_dirichlet, .list = list, .node_count = edges ? 2 : 1};
     long count = edges ? model->edge_count : model->node_count;
     list->count = 0;
     list->failed = false;
     for (long i = count * piece / PIECES; i < count * (piece + 1) / PIECES; i++) {
         int first = list->count;
-        q.item = (int)i;
-        if (edges) {
-            if (edge_is_dirichlet(&q, q.item)) continue;
+        q.item = q.nodes[0] = (int)i;
+        for (int k = 0; edges && k < 2; k++) q.nodes[k] = model->edges[i][k];
+        q.item_is_dirichlet = all_dirichlet(is_dirichlet, q.nodes, q.node_count);
+        if (!edges)
+            ask_node(b, &q, kind);
+        else if (!q.item_is_dirichlet)
             cipc_box_tree_query(b->edge_tree, &b->edge_boxes[i], visit_edge, &q, NULL);
-        } else {
-            q.item_is_dirichlet = dirichlet(is_dirichlet, q.item);
-            cipc_box_tree_query(b->triangle_tree, &b->node_boxes[i], visit_triangle, &q, NULL);
-        }
         sort_found(list, first);
     }
 }
 
 /* Join the pieces into one array. */
-static cipc_status gather(cipc_broad_phase *b, int (**pairs)[2], int *count, int *capacity, cipc_error *error)
+static cipc_status gather(cipc_broad_phase *b, cipc_candidate_list *into, cipc_error *error)
 {
     long total = 0;
     for (int i = 0; i < PIECES; i++) {
         if (b->pieces[i].failed) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "broad phase", "no memory for the candidate pairs");
         total += b->pieces[i].count;
     }
-    if (total > *capacity) {
-        int(*larger)[2] = cipc_realloc(*pairs, (size_t)total, sizeof *larger);
+    if (total > into->capacity) {
+        int(*larger)[2] = cipc_realloc(into->pairs, (size_t)total, sizeof *larger);
         if (!larger) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "broad phase", "no memory for %ld candidate pairs", total);
-        *pairs = larger;
-        *capacity = (int)total;
+        into->pairs = larger;
+        into->capacity = (int)total;
     }
-    *count = 0;
+    into->count = 0;
     for (int i = 0; i < PIECES; i++) {
-        if (b->pieces[i].count) memcpy(*pairs + *count, b->pieces[i].pairs, (size_t)b->pieces[i].count * sizeof **pairs);
-        *count += b->pieces[i].count;
+        if (b->pieces[i].count) memcpy(into->pairs + into->count, b->pieces[i].pairs, (size_t)b->pieces[i].count * sizeof *into->pairs);
+        into->count += b->pieces[i].count;
     }
     return CIPC_OK;
+}
+
+/* Kinds that this model has no primitives for need no queries. */
+static bool has_kind(const cipc_broad_phase *b, const cipc_model *model, cipc_pair_kind kind)
+{
+    if (kind == CIPC_POINT_TRIANGLE) return model->triangle_count > 0;
+    if (kind == CIPC_POINT_EDGE) return model->segment_count > 0;
+    return kind == CIPC_POINT_POINT ? b->particle_count > 1 : model->edge_count > 1;
 }
 
 cipc_status cipc_broad_phase_find(cipc_broad_phase *b, const cipc_model *model, const double *x, const double *p, double t_max, double reach,
@@ -220,19 +294,12 @@ cipc_status cipc_broad_phase_find(cipc_broad_phase *b, const cipc_model *model, 
 {
     swept_boxes(b, model, x, p, t_max, reach);
     cipc_status status = update_trees(b, model, error);
-    if (status) return status;
+    for (int kind = 0; kind < CIPC_PAIR_KIND_COUNT && !status; kind++) {
+        c->lists[kind].count = 0;
+        if (!has_kind(b, model, (cipc_pair_kind)kind)) continue;
 #pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (int piece = 0; piece < PIECES; piece++) query_piece(b, model, is_dirichlet, false, piece);
-    status = gather(b, &c->point_triangle, &c->point_triangle_count, &c->point_triangle_capacity, error);
-    if (status) return status;
-#pragma omp parallel for schedule(dynamic) num_threads(threads)
-    for (int piece = 0; piece < PIECES; piece++) query_piece(b, model, is_dirichlet, true, piece);
-    return gather(b, &c->edge_edge, &c->edge_edge_count, &c->edge_edge_capacity, error);
-}
-
-void cipc_candidates_free(cipc_candidates *c)
-{
-    cipc_free(c->point_triangle);
-    cipc_free(c->edge_edge);
-    memset(c, 0, sizeof *c);
+        for (int piece = 0; piece < PIECES; piece++) query_piece(b, model, is_dirichlet, (cipc_pair_kind)kind, piece);
+        status = gather(b, &c->lists[kind], error);
+    }
+    return status;
 }

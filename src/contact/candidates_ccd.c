@@ -9,11 +9,11 @@
 
 /* Do the two primitives' boxes, swept over [0, t] and grown by xi, stay apart? The far corner x + t p is rounded like the path itself; the slack
  * covers both roundings. `first` nodes belong to the first primitive. */
-static bool swept_apart(const double y[12], const double q[12], int first, double t, double xi)
+static bool swept_apart(const double y[12], const double q[12], int first, int count, double t, double xi)
 {
     for (int k = 0; k < 3; k++) {
         double lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY}, size = 0;
-        for (int i = 0; i < 4; i++) {
+        for (int i = 0; i < count; i++) {
             double from = y[3 * i + k], to = from + t * q[3 * i + k];
             int side = i >= first;
             lo[side] = min2(lo[side], min2(from, to));
@@ -26,11 +26,6 @@ static bool swept_apart(const double y[12], const double q[12], int first, doubl
     return false;
 }
 
-static const int *candidate(const cipc_candidates *c, long index)
-{
-    return index < c->point_triangle_count ? c->point_triangle[index] : c->edge_edge[index - c->point_triangle_count];
-}
-
 typedef struct earliest {
     double t;
     long index;
@@ -41,14 +36,16 @@ typedef struct earliest {
 static void test_candidate(const cipc_model *model, const cipc_candidates *c, const double *x, const double *p, double t_max, long index,
                            const cipc_ccd_options *options, earliest *best)
 {
-    bool edge_edge = index >= c->point_triangle_count;
     int nodes[4];
-    cipc_stencil_path path = {.kind = cipc_mesh_pair(edge_edge)};
-    cipc_stencil_nodes(model, edge_edge, candidate(c, index), nodes);
-    cipc_stencil_positions(x, nodes, path.x);
-    cipc_stencil_positions(p, nodes, path.p);
-    double xi = cipc_model_pair_offset(model, nodes[0], nodes[2]);
-    if (swept_apart(path.x, path.p, edge_edge ? 2 : 1, options->gap_first ? 1 : t_max, xi)) return; /* the released code looks at the whole path */
+    cipc_stencil_path path;
+    const int *pair = cipc_candidates_pair(c, index, &path.kind);
+    int count = cipc_pair_nodes(path.kind);
+    path.to_end = false;
+    cipc_stencil_nodes(model, path.kind, pair, nodes);
+    cipc_stencil_positions(x, nodes, count, path.x);
+    cipc_stencil_positions(p, nodes, count, path.p);
+    double xi = cipc_stencil_offset(model, path.kind, nodes), whole = options->gap_first ? 1 : t_max; /* the released code looks at the whole path */
+    if (swept_apart(path.x, path.p, cipc_pair_first_nodes(path.kind), count, whole, xi)) return;
     cipc_ccd_result r = contact_ccd_until(&path, xi, t_max, best->t, options);
     if (r.hit && (r.toi < best->t || best->index < 0)) {
         best->t = r.toi;
@@ -57,9 +54,9 @@ static void test_candidate(const cipc_model *model, const cipc_candidates *c, co
 }
 
 double cipc_candidates_ccd(const cipc_model *model, const cipc_candidates *candidates, const double *x, const double *p, double t_max,
-                           const cipc_ccd_options *options, int threads, int nodes[4], bool *edge_edge)
+                           const cipc_ccd_options *options, int threads, int nodes[4], cipc_pair_kind *kind)
 {
-    long total = (long)candidates->point_triangle_count + candidates->edge_edge_count;
+    long total = cipc_candidates_count(candidates);
     earliest best = {t_max, -1};
 #pragma omp parallel num_threads(threads)
     {
@@ -69,9 +66,11 @@ double cipc_candidates_ccd(const cipc_model *model, const cipc_candidates *candi
 #pragma omp critical
         if (mine.index >= 0 && (mine.t < best.t || (mine.t == best.t && (best.index < 0 || mine.index < best.index)))) best = mine;
     }
-    bool ee = best.index >= candidates->point_triangle_count;
-    if (edge_edge) *edge_edge = ee;
     for (int i = 0; nodes && i < 4; i++) nodes[i] = -1;
-    if (nodes && best.index >= 0) cipc_stencil_nodes(model, ee, candidate(candidates, best.index), nodes);
+    if (best.index < 0) return best.t;
+    cipc_pair_kind limiting;
+    const int *pair = cipc_candidates_pair(candidates, best.index, &limiting);
+    if (nodes) cipc_stencil_nodes(model, limiting, pair, nodes);
+    if (kind) *kind = limiting;
     return best.t;
 }

@@ -24,7 +24,6 @@ typedef struct activation {
     const double *x;
     const cipc_contact_options *options;
     double stiffness;
-    double mean_node_area, mean_edge_area;
 } activation;
 
 static double edge_rest_length2(const cipc_model *m, int edge)
@@ -55,34 +54,51 @@ static cipc_contact feature_contact(const cipc_feature *feature, const int nodes
 static double gap_of(double d2, double xi) { return (d2 - xi * xi) / (sqrt(d2) + xi); }
 
 /* Box test on the stencil's own nodes: most candidates end here. `first` nodes belong to the first primitive. */
-static bool boxes_apart(const double y[12], int first, double distance)
+static bool boxes_apart(const double y[12], int first, int count, double distance)
 {
     for (int k = 0; k < 3; k++) {
-        double lo_a = y[k], hi_a = y[k], lo_b = y[9 + k], hi_b = y[9 + k];
+        double lo_a = y[k], hi_a = y[k], lo_b = y[3 * first + k], hi_b = lo_b;
         if (first == 2) {
             lo_a = min2(lo_a, y[3 + k]);
             hi_a = max2(hi_a, y[3 + k]);
-        } else {
-            lo_b = min2(lo_b, y[3 + k]);
-            hi_b = max2(hi_b, y[3 + k]);
         }
-        lo_b = min2(lo_b, y[6 + k]);
-        hi_b = max2(hi_b, y[6 + k]);
+        for (int i = first + 1; i < count; i++) {
+            lo_b = min2(lo_b, y[3 * i + k]);
+            hi_b = max2(hi_b, y[3 * i + k]);
+        }
         if (lo_a - hi_b > distance || lo_b - hi_a > distance) return true;
     }
     return false;
 }
 
-/* Test one candidate; true if active, with the contact in *c. */
-static bool activate(const activation *a, bool edge_edge, const int pair[2], cipc_contact *c)
+/* The closest features of a pair; of a pair of points there is one only. */
+static cipc_feature closest_feature(cipc_pair_kind kind, const double y[12])
 {
-    int nodes[4];
+    if (kind == CIPC_EDGE_EDGE) return cipc_edge_edge_feature(y);
+    if (kind == CIPC_POINT_TRIANGLE) return cipc_point_triangle_feature(y);
+    return kind == CIPC_POINT_EDGE ? cipc_point_edge_feature(y) : (cipc_feature){CIPC_POINT_POINT, 2, {0, 1, 0, 0}};
+}
+
+/* (6): the weight of the pair's own primitives: two edges count half each, else the point counts, of two particles half each too. */
+static double pair_weight(const activation *a, cipc_pair_kind kind, const int pair[2])
+{
+    const cipc_model *m = a->model;
+    if (!a->options->area_weights) return 1;
+    if (kind == CIPC_EDGE_EDGE) return 0.5 * (m->edge_weight[pair[0]] + m->edge_weight[pair[1]]);
+    return m->node_weight[pair[0]];
+}
+
+/* Test one candidate; true if active, with the contact in *c. */
+static bool activate(const activation *a, cipc_pair_kind kind, const int pair[2], cipc_contact *c)
+{
+    int nodes[4], count = cipc_pair_nodes(kind);
     double y[12];
-    cipc_stencil_nodes(a->model, edge_edge, pair, nodes);
-    cipc_stencil_positions(a->x, nodes, y);
-    double xi = cipc_model_pair_offset(a->model, nodes[0], nodes[2]), reach = xi + a->options->dhat;
-    if (boxes_apart(y, edge_edge ? 2 : 1, reach)) return false;
-    cipc_feature feature = edge_edge ? cipc_edge_edge_feature(y) : cipc_point_triangle_feature(y);
+    bool edge_edge = kind == CIPC_EDGE_EDGE;
+    cipc_stencil_nodes(a->model, kind, pair, nodes);
+    cipc_stencil_positions(a->x, nodes, count, y);
+    double xi = cipc_stencil_offset(a->model, kind, nodes), reach = xi + a->options->dhat;
+    if (boxes_apart(y, cipc_pair_first_nodes(kind), count, reach)) return false;
+    cipc_feature feature = closest_feature(kind, y);
     double z[12];
     for (int i = 0; i < feature.count; i++) v3_copy(z + 3 * i, y + 3 * feature.local[i]);
     double d2 = cipc_distance2_value(feature.kind, z);
@@ -98,11 +114,7 @@ static bool activate(const activation *a, bool edge_edge, const int pair[2], cip
     } else {
         *c = feature_contact(&feature, nodes, a->options->merge_directed);
     }
-    double weight = 1;
-    if (a->options->area_weights) /* (6) */
-        weight = edge_edge ? 0.5 * (a->model->edge_area[pair[0]] + a->model->edge_area[pair[1]]) / a->mean_edge_area
-                           : a->model->node_area[nodes[0]] / a->mean_node_area;
-    cipc_contact_barrier barrier = {.stiffness = a->stiffness, .weight = weight, .offset = xi, .dhat = a->options->dhat,
+    cipc_contact_barrier barrier = {.stiffness = a->stiffness, .weight = pair_weight(a, kind, pair), .offset = xi, .dhat = a->options->dhat,
                                     .mollifier_eps = mollifier_eps, .feature = feature};
     if (mollifier_eps == 0 && feature.kind == CIPC_EDGE_EDGE) barrier.feature = (cipc_feature){CIPC_EDGE_EDGE, 4, {0, 1, 2, 3}};
     c->barrier = barrier;
@@ -167,13 +179,6 @@ static void merge(cipc_contact_set *set)
     set->count = kept + 1;
 }
 
-static double mean(const double *values, int count)
-{
-    double sum = 0;
-    for (int i = 0; i < count; i++) sum += values[i];
-    return sum / count;
-}
-
 /* Pieces of the candidate list, filled in parallel, each into a slot of its own. */
 enum { PIECES = 64 };
 
@@ -184,10 +189,12 @@ typedef struct piece {
 
 static void activate_piece(const activation *a, const cipc_candidates *candidates, piece *p, int index)
 {
-    long pt = candidates->point_triangle_count, total = pt + candidates->edge_edge_count;
+    long total = cipc_candidates_count(candidates);
     for (long i = total * index / PIECES; i < total * (index + 1) / PIECES && !p->status; i++) {
         cipc_contact c;
-        if (!activate(a, i >= pt, i < pt ? candidates->point_triangle[i] : candidates->edge_edge[i - pt], &c)) continue;
+        cipc_pair_kind kind;
+        const int *pair = cipc_candidates_pair(candidates, i, &kind);
+        if (!activate(a, kind, pair, &c)) continue;
         p->status = append_contact(&p->set, &c, NULL);
     }
 }
@@ -211,11 +218,7 @@ static void find_min_gap(cipc_contact_set *set, const double *x)
 cipc_status cipc_contact_set_build(cipc_contact_set *set, const cipc_model *model, const cipc_candidates *candidates, const double *x, double stiffness,
                                    const cipc_contact_options *options, int threads, cipc_error *error)
 {
-    activation a = {.model = model, .x = x, .options = options, .stiffness = stiffness, .mean_node_area = 1, .mean_edge_area = 1};
-    if (options->area_weights) {
-        a.mean_node_area = mean(model->node_area, model->node_count);
-        a.mean_edge_area = mean(model->edge_area, model->edge_count);
-    }
+    activation a = {.model = model, .x = x, .options = options, .stiffness = stiffness};
     cipc_status status = CIPC_OK;
     set->count = 0;
     piece *pieces = cipc_alloc(PIECES, sizeof *pieces);

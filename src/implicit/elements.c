@@ -24,7 +24,7 @@ static void gather_rest(const cipc_model *m, const int *nodes, int count, double
 static cipc_status add_triangle(cipc_stepper *s, int t, cipc_error *error)
 {
     const cipc_model *m = s->model;
-    const cipc_shell_material *material = &m->bodies[m->triangle_body[t]].material;
+    const cipc_material *material = &m->bodies[m->triangle_body[t]].material;
     double rest[9];
     bool good = true;
     gather_rest(m, m->triangles[t], 3, rest);
@@ -50,7 +50,7 @@ static void add_hinge(cipc_stepper *s, int h)
     const cipc_model *m = s->model;
     const int *nodes = m->hinges[h];
     const cipc_body *body = &m->bodies[m->node_body[nodes[0]]];
-    const cipc_shell_material *material = &body->material;
+    const cipc_material *material = &body->material;
     if (body->fixed || !(material->bending_young > 0)) return;
     double rest[12];
     gather_rest(m, nodes, 4, rest);

@@ -53,7 +53,7 @@ static void invert_rest(double inverse[4], const double E1[3], const double E2[3
 void cipc_strain_rest_init(cipc_strain_rest *rest, const cipc_model *model)
 {
     for (int t = 0; t < model->triangle_count; t++) {
-        const cipc_shell_material *material = &model->bodies[model->triangle_body[t]].material;
+        const cipc_material *material = &model->bodies[model->triangle_body[t]].material;
         double E1[3], E2[3];
         edges_of(model->rest, model->triangles[t], E1, E2);
         fundamental_form(rest[t].form, E1, E2);

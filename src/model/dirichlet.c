@@ -13,9 +13,25 @@ static int compare_ints(const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
+/* Frames belong to the nodes in their order, so the order must be the one that is kept. */
+static cipc_status check_track(const cipc_dirichlet_set *set, cipc_error *error)
+{
+    const cipc_track *t = &set->track;
+    if (t->frame_count == 0) return CIPC_OK;
+    if (!isfinite(t->begin) || !(t->interval > 0) || !isfinite(t->interval))
+        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "dirichlet", "a track begins at %g s with %g s from frame to frame", t->begin, t->interval);
+    for (long i = 0; i < 3L * t->frame_count * set->node_count; i++)
+        if (!isfinite(t->frames[i])) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "dirichlet", "a frame of a track has a number that is not finite");
+    for (int i = 1; i < set->node_count; i++)
+        if (set->nodes[i] <= set->nodes[i - 1]) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "dirichlet", "the nodes of a track must ascend");
+    return CIPC_OK;
+}
+
 static cipc_status check_set(const cipc_model *model, const cipc_dirichlet_set *set, cipc_error *error)
 {
     if (set->node_count < 1) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "dirichlet", "the set has no nodes");
+    cipc_status status = check_track(set, error);
+    if (status) return status;
     for (int i = 0; i < set->node_count; i++)
         if (set->nodes[i] < 0 || set->nodes[i] >= model->node_count)
             return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "dirichlet", "node %d does not exist; the model has %d", set->nodes[i], model->node_count);
@@ -41,11 +57,15 @@ cipc_status cipc_model_add_dirichlet(cipc_model *model, const cipc_dirichlet_set
     cipc_dirichlet_set copy = *set;
     copy.nodes = cipc_alloc((size_t)set->node_count, sizeof(int));
     copy.motions = cipc_alloc((size_t)set->motion_count, sizeof(cipc_motion));
-    if (!copy.nodes || !copy.motions) {
+    size_t numbers = 3 * (size_t)set->track.frame_count * (size_t)set->node_count;
+    copy.track.frames = numbers ? cipc_alloc(numbers, sizeof(double)) : NULL;
+    if (!copy.nodes || !copy.motions || (numbers && !copy.track.frames)) {
         cipc_free(copy.nodes);
         cipc_free(copy.motions);
+        cipc_free(copy.track.frames);
         return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "dirichlet", "no memory for a set of %d nodes", set->node_count);
     }
+    if (numbers) memcpy(copy.track.frames, set->track.frames, numbers * sizeof(double));
     memcpy(copy.nodes, set->nodes, (size_t)set->node_count * sizeof(int));
     qsort(copy.nodes, (size_t)set->node_count, sizeof(int), compare_ints);
     int unique = 0;
@@ -84,6 +104,20 @@ static bool apply_motion(const cipc_motion *m, double time, double h, double y[3
     return true;
 }
 
+/* Where the track has its i-th node at the end of the step; at a frame's time that frame exactly. True if that is not where the node is. */
+static bool follow_track(const cipc_dirichlet_set *set, int i, double end, double y[3])
+{
+    const cipc_track *t = &set->track;
+    double place = fmin(fmax((end - t->begin) / t->interval, 0), t->frame_count - 1), nearest = round(place);
+    if (fabs(place - nearest) < 1e-9) place = nearest; /* the rounding of step * h */
+    int frame = (int)fmin(floor(place), fmax(t->frame_count - 2, 0));
+    double part = place - frame, from[3];
+    const double *a = t->frames + 3 * ((size_t)frame * (size_t)set->node_count + (size_t)i), *b = part > 0 ? a + 3 * (size_t)set->node_count : a;
+    v3_copy(from, y);
+    for (int k = 0; k < 3; k++) y[k] = part == 1 ? b[k] : a[k] + part * (b[k] - a[k]);
+    return memcmp(from, y, sizeof from) != 0;
+}
+
 void cipc_dirichlet_targets(const cipc_model *model, const double *position, double time, double h, bool *is_dirichlet, double *target, bool *moves)
 {
     memcpy(target, position, 3 * (size_t)model->node_count * sizeof(double));
@@ -96,7 +130,7 @@ void cipc_dirichlet_targets(const cipc_model *model, const double *position, dou
             int node = set->nodes[i];
             double *y = target + 3 * node;
             v3_copy(y, position + 3 * node);
-            bool moved = false;
+            bool moved = set->track.frame_count > 0 && follow_track(set, i, time + h, y);
             for (int k = 0; k < set->motion_count; k++) moved |= apply_motion(&set->motions[k], time, h, y);
             is_dirichlet[node] = true;
             if (moves) moves[node] = moved;

@@ -3,6 +3,8 @@
 
 #include <stdlib.h>
 
+#include "model/measures.h"
+
 /* One side of one triangle: from < to after ordering; `forward` tells whether the triangle runs from -> to. */
 typedef struct half_edge {
     int from, to, triangle, opposite;
@@ -42,7 +44,7 @@ static void add_edge(cipc_model *m, const half_edge *sides, int i, int j)
     m->edges[m->edge_count][1] = a->forward ? a->to : a->from;
     m->edge_area[m->edge_count++] = area;
     /* Two triangles on the same three nodes have no angle between them. */
-    if (j - i != 2 || a->opposite == sides[i + 1].opposite) return;
+    if (j - i != 2 || a->opposite == sides[i + 1].opposite || m->bodies[m->triangle_body[a->triangle]].kind != CIPC_BODY_SHELL) return;
     int *hinge = m->hinges[m->hinge_count++];
     hinge[0] = a->forward ? a->from : a->to;
     hinge[1] = a->forward ? a->to : a->from;
@@ -54,8 +56,9 @@ cipc_status cipc_mesh_topology(cipc_model *m, cipc_error *error)
 {
     size_t side_count = 3 * (size_t)m->triangle_count;
     half_edge *sides = cipc_alloc(side_count, sizeof *sides);
-    m->edges = cipc_alloc(side_count, sizeof *m->edges);
-    m->edge_area = cipc_alloc(side_count, sizeof *m->edge_area);
+    size_t edge_room = side_count + (size_t)m->segment_count;
+    m->edges = cipc_alloc(edge_room, sizeof *m->edges);
+    m->edge_area = cipc_alloc(edge_room, sizeof *m->edge_area);
     m->hinges = cipc_alloc(side_count, sizeof *m->hinges);
     cipc_status status = CIPC_OK;
     if (!sides || !m->edges || !m->edge_area || !m->hinges) {

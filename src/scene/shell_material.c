@@ -35,7 +35,7 @@ static double read_factor(scene_reader *r, const scene_cursor *body, const char 
     return scene_number_at(r, &factor, factor_range);
 }
 
-static void read_membrane(scene_reader *r, const scene_cursor *body, const scene_material *named, bool optional, cipc_shell_material *m)
+static void read_membrane(scene_reader *r, const scene_cursor *body, const scene_material *named, bool optional, cipc_material *m)
 {
     static const char *const keys[] = {"model", "young", "poisson", NULL};
     double factor = read_factor(r, body, "membrane_factor", "membrane", named);
@@ -54,7 +54,7 @@ static void read_membrane(scene_reader *r, const scene_cursor *body, const scene
 }
 
 static void read_bending(scene_reader *r, const scene_cursor *body, const scene_material *named, const scene_material_defaults *defaults,
-                         cipc_shell_material *m)
+                         cipc_material *m)
 {
     static const char *const keys[] = {"young", "poisson", "constant", NULL};
     double factor = read_factor(r, body, "bending_factor", "bending", named);
@@ -73,7 +73,7 @@ static void read_bending(scene_reader *r, const scene_cursor *body, const scene_
 }
 
 /* false: none; "material": the named material's; an object: its own numbers. */
-static void read_strain_limit(scene_reader *r, const scene_cursor *body, const scene_material *named, cipc_shell_material *m)
+static void read_strain_limit(scene_reader *r, const scene_cursor *body, const scene_material *named, cipc_material *m)
 {
     static const char *const keys[] = {"limit", "activation", "stiffness", NULL};
     scene_cursor limit = scene_member(body, "strain_limit");
@@ -103,9 +103,9 @@ static void forget_name(const scene_cursor *body)
     json_object_del(body->value, "bending_factor");
 }
 
-void scene_read_material(scene_reader *r, const scene_cursor *body, const scene_material_defaults *defaults, cipc_shell_material *m)
+void scene_read_material(scene_reader *r, const scene_cursor *body, const scene_material_defaults *defaults, cipc_material *m)
 {
-    *m = (cipc_shell_material){0};
+    *m = (cipc_material){0};
     const scene_material *named = read_name(r, body);
     double density = defaults->optional ? defaults->density : SCENE_REQUIRED_NUMBER;
     double thickness = defaults->optional ? defaults->thickness : SCENE_REQUIRED_NUMBER;

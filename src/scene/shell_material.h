@@ -14,6 +14,6 @@ typedef struct scene_material_defaults {
 
 /* Read a body's material; in the tree the name and the factors are replaced by the numbers they stand for. */
 void scene_read_material(scene_reader *reader, const scene_cursor *body, const scene_material_defaults *defaults,
-                         cipc_shell_material *material);
+                         cipc_material *material);
 
 #endif

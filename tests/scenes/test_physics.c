@@ -408,7 +408,7 @@ static void test_hung_strip(void **state)
         scene.options.time_step = 0.05;
         scene.options.newton_tolerance = 1e-10;
         scene.gravity[1] = -g;
-        cipc_shell_material *m = &sheet_add_grid(&scene, "strip", origin, u, v, 1, 1)->material;
+        cipc_material *m = &sheet_add_grid(&scene, "strip", origin, u, v, 1, 1)->material;
         m->membrane = CIPC_MEMBRANE_STVK;
         m->membrane_young = strip_young;
         m->membrane_poisson = 0;

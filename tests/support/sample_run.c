@@ -37,9 +37,9 @@ sample_run sample_run_create(void)
     const double ground[12] = {-1, 0, -1, 1, 0, -1, -1, 0, 1, 1, 0, 1};
     const int ground_triangles[2][3] = {{0, 2, 1}, {1, 2, 3}};
     fill_cloth(cloth, cloth_triangles);
-    const cipc_shell_material cotton = {.density = 472, .thickness = 3e-4, .membrane = CIPC_MEMBRANE_NEO_HOOKEAN, .membrane_young = 8e3,
+    const cipc_material cotton = {.density = 472, .thickness = 3e-4, .membrane = CIPC_MEMBRANE_NEO_HOOKEAN, .membrane_young = 8e3,
                                         .membrane_poisson = 0.24, .strain_limit = 1.06, .strain_activation = 1, .strain_stiffness = 1e3};
-    cipc_shell_material stone = cotton;
+    cipc_material stone = cotton;
     stone.strain_limit = 0;
     const cipc_body_description bodies[2] = {
         {.name = "cloth",

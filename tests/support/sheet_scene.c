@@ -53,7 +53,7 @@ cipc_body_description *sheet_add_body(sheet_scene *scene, const char *name, int 
     assert_true(scene->body_count < SHEET_SCENE_BODIES);
     cipc_body_description *d = &scene->bodies[scene->body_count++];
     (void)snprintf(d->name, sizeof d->name, "%s", name);
-    cipc_shell_material material = {.density = 500,
+    cipc_material material = {.density = 500,
                                     .thickness = 1e-3,
                                     .membrane = CIPC_MEMBRANE_NEO_HOOKEAN,
                                     .membrane_young = 1e5,

@@ -74,7 +74,7 @@ static void test_walks(void **state)
             assert_int_equal(cipc_cache_cover(s, s->x, NULL, NULL), CIPC_OK); /* no motion: the point alone */
             assert_true(cache_is_complete(s, s->x));
         }
-        s->cache.candidates.point_triangle_count = s->cache.candidates.edge_edge_count = 0; /* the check can fail */
+        s->cache.candidates.lists[CIPC_POINT_TRIANGLE].count = s->cache.candidates.lists[CIPC_EDGE_EDGE].count = 0; /* the check can fail */
         assert_true(s->trial_contacts.count == 0 || !cache_is_complete(s, s->x));
         sheet_scene_free(&scene);
     }

@@ -23,16 +23,16 @@ static void keep_apart(void *context, bool edge_edge, const int pair[2], const i
     double y[12];
     soup_stencil(s->x, nodes, y);
     if (soup_box_distance(edge_edge, y) <= xi && cipc_exact_distance_gap(cipc_mesh_pair(edge_edge), y, xi) <= 0) return;
-    int(**pairs)[2] = edge_edge ? &c->edge_edge : &c->point_triangle, *count = edge_edge ? &c->edge_edge_count : &c->point_triangle_count;
+    int(**pairs)[2] = edge_edge ? &c->lists[CIPC_EDGE_EDGE].pairs : &c->lists[CIPC_POINT_TRIANGLE].pairs, *count = edge_edge ? &c->lists[CIPC_EDGE_EDGE].count : &c->lists[CIPC_POINT_TRIANGLE].count;
     memcpy((*pairs)[(*count)++], pair, 2 * sizeof(int));
 }
 
 static cipc_candidates all_candidates(const soup *s)
 {
     size_t nodes = (size_t)s->model->node_count, triangles = (size_t)s->model->triangle_count, edges = (size_t)s->model->edge_count;
-    cipc_candidates c = {.point_triangle = cipc_alloc(nodes * triangles, 2 * sizeof(int)),
-                         .edge_edge = cipc_alloc(edges * edges / 2, 2 * sizeof(int))};
-    assert_true(c.point_triangle && c.edge_edge);
+    cipc_candidates c = {.lists[CIPC_POINT_TRIANGLE].pairs = cipc_alloc(nodes * triangles, 2 * sizeof(int)),
+                         .lists[CIPC_EDGE_EDGE].pairs = cipc_alloc(edges * edges / 2, 2 * sizeof(int))};
+    assert_true(c.lists[CIPC_POINT_TRIANGLE].pairs && c.lists[CIPC_EDGE_EDGE].pairs);
     const void *context[2] = {s, &c};
     visit_all_pairs(s->model, s->is_dirichlet, keep_apart, context);
     return c;
@@ -49,13 +49,13 @@ typedef struct trial {
 typedef struct answer {
     double t;
     int nodes[4];
-    bool edge_edge;
+    cipc_pair_kind kind;
 } answer;
 
 static answer solve(const trial *t, int threads)
 {
-    answer a;
-    a.t = cipc_candidates_ccd(t->s->model, t->candidates, t->s->x, t->s->p, t->t_max, &t->options, threads, a.nodes, &a.edge_edge);
+    answer a = {.kind = CIPC_PAIR_KIND_COUNT};
+    a.t = cipc_candidates_ccd(t->s->model, t->candidates, t->s->x, t->s->p, t->t_max, &t->options, threads, a.nodes, &a.kind);
     return a;
 }
 
@@ -63,7 +63,7 @@ static void assert_same(const answer *a, const answer *b)
 {
     if (a->t != b->t) fail_msg("steps %.17g and %.17g", a->t, b->t);
     assert_memory_equal(a->nodes, b->nodes, sizeof a->nodes);
-    assert_int_equal(a->edge_edge, b->edge_edge);
+    assert_int_equal(a->kind, b->kind);
 }
 
 /* Do the boxes of the two primitives' paths over [0, t_max] stay apart by more than xi? Such a pair cannot touch. */
@@ -89,11 +89,11 @@ static answer plain(const trial *t)
 {
     const cipc_model *m = t->s->model;
     const cipc_candidates *c = t->candidates;
-    answer best = {.t = t->t_max, .nodes = {-1, -1, -1, -1}};
+    answer best = {.t = t->t_max, .nodes = {-1, -1, -1, -1}, .kind = CIPC_PAIR_KIND_COUNT};
     bool any = false;
-    for (int i = 0; i < c->point_triangle_count + c->edge_edge_count; i++) {
-        bool edge_edge = i >= c->point_triangle_count;
-        const int *pair = edge_edge ? c->edge_edge[i - c->point_triangle_count] : c->point_triangle[i],
+    for (int i = 0; i < c->lists[CIPC_POINT_TRIANGLE].count + c->lists[CIPC_EDGE_EDGE].count; i++) {
+        bool edge_edge = i >= c->lists[CIPC_POINT_TRIANGLE].count;
+        const int *pair = edge_edge ? c->lists[CIPC_EDGE_EDGE].pairs[i - c->lists[CIPC_POINT_TRIANGLE].count] : c->lists[CIPC_POINT_TRIANGLE].pairs[i],
                   *v = edge_edge ? NULL : m->triangles[pair[1]];
         const int nodes[4] = {edge_edge ? m->edges[pair[0]][0] : pair[0], edge_edge ? m->edges[pair[0]][1] : v[0],
                               edge_edge ? m->edges[pair[1]][0] : v[1], edge_edge ? m->edges[pair[1]][1] : v[2]};
@@ -105,7 +105,7 @@ static answer plain(const trial *t)
         cipc_ccd_result r = cipc_ccd(&path, xi, t->t_max, &t->options);
         if (!r.hit || (any && r.toi >= best.t)) continue;
         any = true;
-        best = (answer){.t = r.toi, .nodes = {nodes[0], nodes[1], nodes[2], nodes[3]}, .edge_edge = edge_edge};
+        best = (answer){.t = r.toi, .nodes = {nodes[0], nodes[1], nodes[2], nodes[3]}, .kind = cipc_mesh_pair(edge_edge)};
     }
     return best;
 }
@@ -141,11 +141,11 @@ static void test_is_the_least_of_all_pairs(void **state)
                 answer got = solve(&t, threads);
                 assert_same(&got, &want);
             }
-            reverse(c.point_triangle, c.point_triangle_count);
-            reverse(c.edge_edge, c.edge_edge_count);
+            reverse(c.lists[CIPC_POINT_TRIANGLE].pairs, c.lists[CIPC_POINT_TRIANGLE].count);
+            reverse(c.lists[CIPC_EDGE_EDGE].pairs, c.lists[CIPC_EDGE_EDGE].count);
             assert_true(solve(&t, 1).t == want.t && solve(&t, 2).t == want.t);
             limited += want.nodes[0] >= 0;
-            by_edges += want.edge_edge;
+            by_edges += want.kind == CIPC_EDGE_EDGE;
             free_ways += want.nodes[0] < 0;
         }
         cipc_candidates_free(&c);
@@ -224,7 +224,7 @@ static void test_known_answer(void **state)
     assert_true(cipc_candidates_ccd(s.model, &c, x, p, 1, &t.options, 1, NULL, NULL) == solve(&t, 1).t);
     t.t_max = 0.25;
     answer none = solve(&t, 2);
-    assert_true(none.t == 0.25 && none.nodes[0] == -1 && none.nodes[3] == -1 && !none.edge_edge);
+    assert_true(none.t == 0.25 && none.nodes[0] == -1 && none.nodes[3] == -1 && none.kind == CIPC_PAIR_KIND_COUNT);
     t.candidates = &empty;
     assert_true(solve(&t, 2).t == 0.25);
     cipc_candidates_free(&c);
@@ -266,7 +266,7 @@ static void test_ties_go_to_the_first(void **state)
     cipc_candidates c = all_candidates(&s);
     trial t = {.s = &s, .candidates = &c, .t_max = 1, .options = cipc_ccd_options_default()};
     answer want = plain(&t);
-    assert_true(fabs(want.t - 0.45) <= 64 * UNIT_ROUNDOFF && !want.edge_edge);
+    assert_true(fabs(want.t - 0.45) <= 64 * UNIT_ROUNDOFF && want.kind == CIPC_POINT_TRIANGLE);
     assert_int_equal(want.nodes[0], 0);
     for (int repeat = 0; repeat < 20; repeat++)
         for (int threads = 1; threads <= 3; threads++) {

@@ -86,7 +86,7 @@ static void add_pair(void *context, bool edge_edge, const int pair[2], const int
     plain_pair p = {.gap = far ? INFINITY : cipc_exact_distance_gap(cipc_mesh_pair(edge_edge), y, xi), .weight = 1};
     if (p.gap < set->least_gap) return;
     cipc_candidates *c = &set->candidates;
-    memcpy(edge_edge ? c->edge_edge[c->edge_edge_count++] : c->point_triangle[c->point_triangle_count++], pair, 2 * sizeof(int));
+    memcpy(edge_edge ? c->lists[CIPC_EDGE_EDGE].pairs[c->lists[CIPC_EDGE_EDGE].count++] : c->lists[CIPC_POINT_TRIANGLE].pairs[c->lists[CIPC_POINT_TRIANGLE].count++], pair, 2 * sizeof(int));
     if (p.gap >= dhat) return;
     if (set->options.area_weights)
         p.weight = edge_edge ? 0.5 * (m->edge_area[pair[0]] + m->edge_area[pair[1]]) / set->mean_edge_area
@@ -113,10 +113,10 @@ static plain_set plain(const soup *s, const cipc_contact_options *options, doubl
     const cipc_model *m = s->model;
     size_t edges = (size_t)m->edge_count;
     plain_set set = {.s = s, .x = s->x, .options = *options, .least_gap = least_gap, .capacity = MOST_ACTIVE};
-    set.candidates.point_triangle = cipc_alloc((size_t)m->node_count * (size_t)m->triangle_count, 2 * sizeof(int));
-    set.candidates.edge_edge = cipc_alloc(edges * edges / 2, 2 * sizeof(int));
+    set.candidates.lists[CIPC_POINT_TRIANGLE].pairs = cipc_alloc((size_t)m->node_count * (size_t)m->triangle_count, 2 * sizeof(int));
+    set.candidates.lists[CIPC_EDGE_EDGE].pairs = cipc_alloc(edges * edges / 2, 2 * sizeof(int));
     set.pairs = cipc_alloc(MOST_ACTIVE, sizeof *set.pairs);
-    assert_true(set.candidates.point_triangle && set.candidates.edge_edge && set.pairs);
+    assert_true(set.candidates.lists[CIPC_POINT_TRIANGLE].pairs && set.candidates.lists[CIPC_EDGE_EDGE].pairs && set.pairs);
     for (int i = 0; i < m->node_count; i++) set.mean_node_area += m->node_area[i] / m->node_count;
     for (int e = 0; e < m->edge_count; e++) set.mean_edge_area += m->edge_area[e] / m->edge_count;
     visit_all_pairs(m, s->is_dirichlet, add_pair, &set);
@@ -316,8 +316,8 @@ static two_triangles two(const double a[9], const double b[9], bool edge_edge)
     memcpy(t.x + 9, b, 9 * sizeof *b);
     t.pair[0][0] = edge_edge ? 0 : 3; /* edges in ascending order: 0 1, 0 2, 1 2, 3 4, ... */
     t.pair[0][1] = edge_edge ? 3 : 0;
-    *(edge_edge ? &t.candidates.edge_edge : &t.candidates.point_triangle) = t.pair;
-    *(edge_edge ? &t.candidates.edge_edge_count : &t.candidates.point_triangle_count) = 1;
+    *(edge_edge ? &t.candidates.lists[CIPC_EDGE_EDGE].pairs : &t.candidates.lists[CIPC_POINT_TRIANGLE].pairs) = t.pair;
+    *(edge_edge ? &t.candidates.lists[CIPC_EDGE_EDGE].count : &t.candidates.lists[CIPC_POINT_TRIANGLE].count) = 1;
     return t;
 }
 

@@ -24,7 +24,7 @@ static void make_scene(sheet_scene *scene)
     for (int b = 0; b < BODIES; b++) {
         const double corner[3] = {0, b, 0};
         cipc_body_description *body = sheet_add_grid(scene, names[b], corner, u, v, 2, 1);
-        cipc_shell_material *m = &body->material;
+        cipc_material *m = &body->material;
         m->thickness = 1e-3 * (b + 1);
         m->membrane_young = 1e5 + b;
         if (b == STVK) m->membrane = CIPC_MEMBRANE_STVK;
@@ -40,7 +40,7 @@ static void rest_of(const cipc_model *m, const int *nodes, int count, double *re
     for (int i = 0; i < 3 * count; i++) rest[i] = m->rest[3 * nodes[i / 3] + i % 3];
 }
 
-static const cipc_shell_material *material_of(const cipc_model *m, int body)
+static const cipc_material *material_of(const cipc_model *m, int body)
 {
     return &m->bodies[body].material;
 }

@@ -21,9 +21,16 @@ static const double ROUNDINGS = 32 * DBL_EPSILON;
 /* Corners of the unit square in the plane z = 0, then two more beside the diagonal 0 2, out of that plane. */
 static double nodes[] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0.5, 0.5, 1, 0.5, 0.5, -1};
 
+/* All triangles are of one shell. */
+static cipc_body shell = {.kind = CIPC_BODY_SHELL};
+static int triangle_body[8];
+
 static void topology(cipc_model *m, int triangle_count, int (*triangles)[3])
 {
+    assert_true(triangle_count <= 8);
     memset(m, 0, sizeof *m);
+    m->bodies = &shell;
+    m->triangle_body = triangle_body;
     m->rest = nodes;
     m->node_count = 6;
     m->triangles = triangles;
@@ -167,7 +174,7 @@ static void test_out_of_memory(void **state)
     int triangles[2][3] = {{0, 1, 2}, {0, 2, 3}};
     cipc_error error;
     for (long n = 1;; n++) {
-        cipc_model m = {.rest = nodes, .node_count = 6, .triangles = triangles, .triangle_count = 2};
+        cipc_model m = {.bodies = &shell, .triangle_body = triangle_body, .rest = nodes, .node_count = 6, .triangles = triangles, .triangle_count = 2};
         fail_allocation(n);
         cipc_status status = cipc_mesh_topology(&m, &error);
         bool failed = allocation_failed();

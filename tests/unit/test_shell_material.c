@@ -10,9 +10,9 @@
 
 static const scene_material_defaults plain = {.density = 1000, .thickness = 1e-3};
 
-static cipc_shell_material read_twice(const char *text, scene_material_defaults defaults)
+static cipc_material read_twice(const char *text, scene_material_defaults defaults)
 {
-    cipc_shell_material first, second;
+    cipc_material first, second;
     scene_reader r = reader_of(text);
     scene_cursor root = scene_root(r.root);
     scene_read_material(&r, &root, &defaults, &first);
@@ -33,7 +33,7 @@ static cipc_shell_material read_twice(const char *text, scene_material_defaults 
 static void test_a_named_material_times_its_factors(void **state)
 {
     (void)state;
-    cipc_shell_material m =
+    cipc_material m =
         read_twice("{\"material\": \"cotton\", \"membrane_factor\": 0.01, \"bending_factor\": 0.5, \"strain_limit\": \"material\"}", plain);
     assert_true(m.density == 472.641509 && m.thickness == 0.318e-3);
     assert_int_equal(m.membrane, CIPC_MEMBRANE_NEO_HOOKEAN);
@@ -46,7 +46,7 @@ static void test_a_named_material_times_its_factors(void **state)
 static void test_numbers_win_over_the_name(void **state)
 {
     (void)state;
-    cipc_shell_material m = read_twice("{\"material\": \"wool\", \"thickness\": 1e-3, \"membrane\": {\"model\": \"stvk\", \"young\": 5}, "
+    cipc_material m = read_twice("{\"material\": \"wool\", \"thickness\": 1e-3, \"membrane\": {\"model\": \"stvk\", \"young\": 5}, "
                                        "\"bending\": {\"constant\": \"cipc\"},"
                                        " \"strain_limit\": {\"activation\": 1.01, \"stiffness\": 7}}",
                                        plain);
@@ -61,7 +61,7 @@ static void test_numbers_win_over_the_name(void **state)
 static void test_numbers_alone(void **state)
 {
     (void)state;
-    cipc_shell_material m = read_twice(
+    cipc_material m = read_twice(
         "{\"density\": 1, \"thickness\": 2, \"membrane\": {\"young\": 3, \"poisson\": 0.5}, \"bending\": {\"young\": 0}}", plain);
     assert_true(m.density == 1 && m.thickness == 2 && m.membrane_young == 3 && m.membrane_poisson == 0.5);
     assert_true(m.bending_young == 0 && m.strain_limit == 0);
@@ -74,7 +74,7 @@ static void test_numbers_alone(void **state)
 static void test_obstacles_need_nothing(void **state)
 {
     (void)state;
-    cipc_shell_material m = read_twice("{}", (scene_material_defaults){.optional = true, .density = 8, .thickness = 9});
+    cipc_material m = read_twice("{}", (scene_material_defaults){.optional = true, .density = 8, .thickness = 9});
     assert_true(m.density == 8 && m.thickness == 9);
     assert_int_equal(m.membrane, CIPC_MEMBRANE_NONE);
     assert_true(m.bending_young == 0 && m.strain_limit == 0);
@@ -92,7 +92,7 @@ static void test_released_hinges(void **state)
 
 static void assert_refused(const char *text, cipc_status status, const char *place, const char *what)
 {
-    cipc_shell_material m;
+    cipc_material m;
     scene_reader r = reader_of(text);
     scene_cursor root = scene_root(r.root);
     scene_read_material(&r, &root, &plain, &m);
