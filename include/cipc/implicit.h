@@ -18,8 +18,14 @@ typedef enum cipc_newton_norm {
     CIPC_NORM_RMS      /* sqrt(sum |p_i|^2 / n_free) / h, the largest of the last three iterations (SPEC R.2, as released) */
 } cipc_newton_norm;
 
+/* How strain limits enter a step (paper, section 6.3): in the one incremental potential; or, for comparison, after it: a predictor without limits, then the point
+ * nearest to it (mass-weighted) that keeps limits and contact. */
+typedef enum cipc_strain_coupling { CIPC_STRAIN_COUPLED = 0, CIPC_STRAIN_SPLIT } cipc_strain_coupling;
+
 typedef struct cipc_implicit_options {
     double time_step;                 /* h, s */
+    bool quasistatic;                 /* no inertia: every step ends in an equilibrium, at rest; h scales scripted motion, friction and the tolerance only */
+    cipc_strain_coupling strain_coupling;
     cipc_integrator integrator;
     double newton_tolerance;          /* m/s */
     cipc_newton_norm newton_norm;

@@ -9,12 +9,16 @@
 #include "cipc/implicit.h"
 #include "cipc/model.h"
 
-/* A surface mesh; arrays are owned. */
+/* A mesh: triangles of a shell, segments of rods, tetrahedra of a volume, or nodes alone; arrays are owned. */
 typedef struct cipc_mesh {
     int node_count;
     double *nodes;             /* 3 * node_count, m */
     int triangle_count;
     int (*triangles)[3];
+    int segment_count;
+    int (*segments)[2];
+    int tetrahedron_count;
+    int (*tetrahedra)[4];      /* positive volume */
 } cipc_mesh;
 void cipc_mesh_free(cipc_mesh *mesh);
 
@@ -27,6 +31,35 @@ cipc_status cipc_mesh_irregular(cipc_mesh *mesh, double size_x, double size_z, i
 cipc_status cipc_mesh_icosphere(cipc_mesh *mesh, double radius, int subdivisions, cipc_error *error);
 /* Wavefront OBJ: v and f lines (polygons are fanned, indices may be negative, v/vt/vn accepted). Errors name file and line. */
 cipc_status cipc_mesh_read_obj(cipc_mesh *mesh, const char *path, cipc_error *error);
+
+/* Shell of revolution about +y: `count` points (radius, height) of the profile, each a ring of `sectors` nodes (staggered from ring to ring), a point on the axis
+ * (radius 0, first or last only) a single node. Normals to the right of the profile seen with +r to the right and +y up: outward if the profile goes up. */
+cipc_status cipc_mesh_revolution(cipc_mesh *mesh, int count, const double (*profile)[2], int sectors, cipc_error *error);
+/* Open cylinder about x, from -length/2 to length/2, of near-equilateral triangles: `around` nodes a ring, rings staggered, `along` + 1 rings. */
+cipc_status cipc_mesh_cylinder(cipc_mesh *mesh, double radius, double length, int around, int along, cipc_error *error);
+
+/* Rods. A polyline through `count` points, each stretch divided into `segments` equal segments; closed joins the last to the first. */
+cipc_status cipc_mesh_polyline(cipc_mesh *mesh, int count, const double (*points)[3], int segments, bool closed, cipc_error *error);
+/* Arc in the x-y plane about the origin from angle 0 at (radius, 0, 0), anticlockwise; angle 2 pi: a closed ring. */
+cipc_status cipc_mesh_arc(cipc_mesh *mesh, double radius, double angle, int segments, cipc_error *error);
+/* count[0] x count[1] x count[2] straight vertical (y) rods of a length, centred, `spacing` from axis to axis in x and z and from middle to middle in y; `round`: of each layer only
+ * those within the inscribed ellipse. Nodes rod by rod from below, x fastest, then z, then y. */
+cipc_status cipc_mesh_rods(cipc_mesh *mesh, const int count[3], const double spacing[3], double length, int segments, bool round, cipc_error *error);
+/* Interwoven net of n + n rods along x and z, extent `size`, `segments` each; where two cross one is `lift` above and the other below, alternately. */
+cipc_status cipc_mesh_net(cipc_mesh *mesh, double size, int n, int segments, double lift, cipc_error *error);
+
+/* Particles: a lattice of count[0] x count[1] x count[2] nodes around the origin, each moved by up to `jitter` in every coordinate (seeded). */
+cipc_status cipc_mesh_lattice(cipc_mesh *mesh, const int count[3], const double spacing[3], double jitter, unsigned long seed, cipc_error *error);
+
+/* Volumes. Box around the origin, each cell cut into six (or five, alternately) tetrahedra; ball: a box lattice carried onto the ball; solid cylinder about y likewise. */
+cipc_status cipc_mesh_box(cipc_mesh *mesh, const double size[3], const int cells[3], cipc_error *error);
+cipc_status cipc_mesh_ball(cipc_mesh *mesh, double radius, int cells, cipc_error *error);
+cipc_status cipc_mesh_solid_cylinder(cipc_mesh *mesh, double radius, double length, int cells_across, int cells_along, cipc_error *error);
+
+/* By the file's ending: .obj (surface; with l lines only: segments; with v lines only: particles), .seg (segments, as OBJ lines), .msh (Gmsh ASCII 2.2 and 4.1), .vtk (legacy ASCII unstructured grid or
+ * polydata). Elements of the wanted kind must be there; the nodes that they do not use are left out (particles: all nodes). */
+typedef enum cipc_mesh_kind { CIPC_MESH_TRIANGLES = 0, CIPC_MESH_SEGMENTS, CIPC_MESH_NODES, CIPC_MESH_TETRAHEDRA } cipc_mesh_kind;
+cipc_status cipc_mesh_read(cipc_mesh *mesh, const char *path, cipc_mesh_kind kind, cipc_error *error);
 
 typedef struct cipc_scene {
     char *path;                          /* of the scene file */
