@@ -118,8 +118,19 @@ static bool find_contact_slots(const cipc_stepper *s, const cipc_term_list lists
     return find_slots(s, &lists[CIPC_LIST_FRICTION], s->contact_slots + PAIRS * (size_t)lists[CIPC_LIST_CONTACT].count) && contacts;
 }
 
-static cipc_status new_pattern(cipc_stepper *s, const cipc_term_list lists[CIPC_LIST_COUNT], cipc_error *error)
+/* The pattern holds all elements, those too that the present stage leaves out: the next stage needs no other. */
+static void whole_lists(cipc_stepper *s, cipc_term_list lists[CIPC_LIST_COUNT])
 {
+    cipc_stage stage = s->stage;
+    s->stage = CIPC_STAGE_WHOLE;
+    cipc_term_lists(s, &s->contacts, lists);
+    s->stage = stage;
+}
+
+static cipc_status new_pattern(cipc_stepper *s, cipc_error *error)
+{
+    cipc_term_list lists[CIPC_LIST_COUNT];
+    whole_lists(s, lists);
     double begin = cipc_seconds();
     int(*pairs)[2] = NULL;
     long count = 0;
@@ -149,7 +160,7 @@ static cipc_status update_pattern(cipc_stepper *s, const cipc_term_list lists[CI
     cipc_status status = reserve_contact_slots(s, lists[CIPC_LIST_CONTACT].count + lists[CIPC_LIST_FRICTION].count, error);
     if (status) return status;
     if (s->pattern_valid && find_contact_slots(s, lists)) return CIPC_OK;
-    return new_pattern(s, lists, error);
+    return new_pattern(s, error);
 }
 
 /* --- values -------------------------------------------------------------------------------------------------------------------- */
@@ -254,8 +265,8 @@ static void add_node_terms(cipc_stepper *s)
 {
     for (int k = 0; k < s->free_count; k++) {
         int node = s->free_nodes[k];
-        double mass = s->model->mass[node];
-        if (s->penalty > 0 && s->moves[node]) mass += s->penalty * mass;
+        double mass = cipc_inertial_mass(s, node) + cipc_drag_mass(s, node);
+        if (s->penalty > 0 && s->moves[node]) mass += s->penalty * s->model->mass[node];
         double *entries = s->matrix.x + cipc_block_matrix_entry(&s->matrix, k, s->matrix.start[k]);
         int stride = cipc_block_matrix_stride(&s->matrix, k);
         for (int c = 0; c < 3; c++) entries[c * stride + c] += mass;
@@ -277,7 +288,7 @@ cipc_status cipc_assemble_hessian(cipc_stepper *s, cipc_error *error)
         const int *slots = l < CIPC_GROUP_COUNT ? s->static_slots + PAIRS * first
                                                 : s->contact_slots + (l == CIPC_LIST_FRICTION ? PAIRS * (size_t)lists[CIPC_LIST_CONTACT].count : 0);
         scatter(s, &lists[l], slots);
-        if (l < CIPC_GROUP_COUNT) first += (size_t)lists[l].count;
+        if (l < CIPC_GROUP_COUNT) first += (size_t)s->groups[l].count;
     }
     add_node_terms(s);
     return CIPC_OK;

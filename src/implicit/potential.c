@@ -22,6 +22,12 @@ static double scale_of_elastic(const cipc_stepper *s)
     return s->options.integrator.alpha * h * h;
 }
 
+/* With split limits the predictor has no limits, and the projection nothing but limits, besides inertia and contact. */
+static bool takes_part(const cipc_stepper *s, bool limit)
+{
+    return s->stage == CIPC_STAGE_WHOLE || limit == (s->stage == CIPC_STAGE_PROJECT);
+}
+
 void cipc_term_lists(const cipc_stepper *s, const cipc_contact_set *contacts, cipc_term_list lists[CIPC_LIST_COUNT])
 {
     double elastic = scale_of_elastic(s), beta = s->options.integrator.beta;
@@ -33,6 +39,7 @@ void cipc_term_lists(const cipc_stepper *s, const cipc_contact_set *contacts, ci
         cipc_term_list list = {.energy = group->energy, .count = group->count, .params = group->params, .params_stride = group->energy->params_size,
                                .nodes = (const char *)group->nodes, .nodes_stride = (size_t)group->energy->nodes * sizeof(int),
                                .scale = limit ? elastic * beta * s->strain_factor : elastic, .chain = limit ? 1 : beta, .blended = !limit};
+        if (!takes_part(s, limit)) list.count = 0;
         lists[g] = list;
     }
     cipc_term_list contact = {.count = contacts->count, .params = (const char *)contacts->contacts, .params_stride = sizeof *contacts->contacts,
@@ -82,6 +89,16 @@ static double list_value(cipc_stepper *s, const cipc_term_list *list, const doub
     return total(&sum);
 }
 
+/* An equilibrium has weight instead of inertia: -h^2 m g.x. The distance that the projection of a split step minimises is inertia's in any case. */
+static bool has_weight(const cipc_stepper *s) { return s->options.quasistatic && s->stage != CIPC_STAGE_PROJECT; }
+
+static cipc_gravity weight_of(const cipc_stepper *s, int node)
+{
+    cipc_gravity params = {.mass = scale_of_elastic(s) * s->options.integrator.beta * s->model->mass[node]};
+    v3_copy(params.acceleration, s->model->gravity);
+    return params;
+}
+
 /* Nodes whose inertia enters E: the free ones, and with the released code's convention the fixed ones too (their term is constant). */
 static bool has_inertia(const cipc_stepper *s, int node) { return s->options.released || !s->is_dirichlet[node]; }
 
@@ -89,6 +106,14 @@ static cipc_inertia inertia_of(const cipc_stepper *s, int node)
 {
     cipc_inertia params = {.mass = s->model->mass[node]};
     v3_copy(params.target, s->x_hat + 3 * node);
+    return params;
+}
+
+/* Mass-proportional Rayleigh damping, a h/2 m |x - x^n|^2: the force -a m (x - x^n)/h. */
+static cipc_inertia drag_of(const cipc_stepper *s, int node)
+{
+    cipc_inertia params = {.mass = cipc_drag_mass(s, node)};
+    v3_copy(params.target, s->x_start + 3 * node);
     return params;
 }
 
@@ -101,14 +126,24 @@ static cipc_dirichlet_penalty penalty_of(const cipc_stepper *s, int node)
     return params;
 }
 
+/* Inertia or weight of a node, and mass-proportional damping. */
+static double node_value(const cipc_stepper *s, int i, const double y[3])
+{
+    cipc_inertia drag = drag_of(s, i);
+    double value = drag.mass > 0 ? cipc_inertia_value(y, &drag) : 0;
+    if (has_weight(s)) {
+        cipc_gravity weight = weight_of(s, i);
+        return value + cipc_gravity_value(y, &weight);
+    }
+    cipc_inertia inertia = inertia_of(s, i);
+    return value + cipc_inertia_value(y, &inertia);
+}
+
 static void node_values(const cipc_stepper *s, const double *x, double *inertia, double *penalty)
 {
     compensated sum = {0, 0}, penalties = {0, 0};
     for (int i = 0; i < s->model->node_count; i++) {
-        if (has_inertia(s, i)) {
-            cipc_inertia params = inertia_of(s, i);
-            add(&sum, cipc_inertia_value(x + 3 * i, &params));
-        }
+        if (has_inertia(s, i)) add(&sum, node_value(s, i, x + 3 * i));
         if (is_penalised(s, i)) {
             cipc_dirichlet_penalty params = penalty_of(s, i);
             add(&penalties, cipc_dirichlet_penalty_value(x + 3 * i, &params));
@@ -192,14 +227,30 @@ static void scatter_gradients(cipc_stepper *s, const cipc_term_list *list, doubl
     }
 }
 
+static void add_node_gradient(cipc_stepper *s, int i, double *gradient)
+{
+    double g[3];
+    cipc_inertia drag = drag_of(s, i);
+    if (drag.mass > 0) {
+        cipc_inertia_gradient(s->x + 3 * i, &drag, g);
+        v3_axpy(gradient + 3 * i, 1, g);
+    }
+    if (has_weight(s)) {
+        cipc_gravity weight = weight_of(s, i);
+        cipc_gravity_gradient(s->x + 3 * i, &weight, g);
+    } else {
+        cipc_inertia inertia = inertia_of(s, i);
+        cipc_inertia_gradient(s->x + 3 * i, &inertia, g);
+    }
+    v3_axpy(gradient + 3 * i, 1, g);
+    if (has_inertia(s, i)) s->noise += fabs(node_value(s, i, s->x + 3 * i));
+}
+
 static void node_gradients(cipc_stepper *s, double *gradient)
 {
     for (int i = 0; i < s->model->node_count; i++) {
         double g[3];
-        cipc_inertia inertia = inertia_of(s, i);
-        cipc_inertia_gradient(s->x + 3 * i, &inertia, g);
-        v3_axpy(gradient + 3 * i, 1, g);
-        if (has_inertia(s, i)) s->noise += cipc_inertia_value(s->x + 3 * i, &inertia);
+        add_node_gradient(s, i, gradient);
         if (is_penalised(s, i)) {
             cipc_dirichlet_penalty penalty = penalty_of(s, i);
             cipc_dirichlet_penalty_gradient(s->x + 3 * i, &penalty, g);

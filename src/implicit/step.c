@@ -133,7 +133,8 @@ cipc_status cipc_reserve_locals(cipc_stepper *s, size_t count, cipc_error *error
 cipc_status cipc_accept(cipc_stepper *s, int iteration, bool energy_valid, double before, double after, cipc_error *error)
 {
     s->report->max_contacts = s->contacts.count > s->report->max_contacts ? s->contacts.count : s->report->max_contacts;
-    if (!s->monitor) return CIPC_OK;
+    /* A predictor's points are no states: nothing is promised of them. */
+    if (!s->monitor || s->stage == CIPC_STAGE_PREDICT) return CIPC_OK;
     cipc_accepted_point point = {.x = s->x, .step = s->step, .iteration = iteration, .energy_valid = energy_valid, .energy_before = before,
                                  .energy_after = after, .energy_noise = s->noise};
     double begin = cipc_seconds();
@@ -179,7 +180,8 @@ static cipc_status minimise(cipc_stepper *s, cipc_error *error)
     int asked = s->options.friction_iterations, cap = asked > 0 ? asked : s->options.friction_cap;
     for (int pass = 0; pass < cap; pass++) {
         int before = s->report->newton_iterations;
-        cipc_status status = cipc_friction_lag(s, error);
+        /* The predictor has had its friction. */
+        cipc_status status = s->stage == CIPC_STAGE_PROJECT ? CIPC_OK : cipc_friction_lag(s, error);
         if (!status) status = cipc_newton(s, error);
         if (status) return status;
         s->report->friction_passes = pass + 1;
@@ -201,7 +203,8 @@ static void finish_state(const cipc_stepper *s, cipc_state *state)
     for (int i = 0; i < 3 * s->model->node_count; i++) {
         double average = (s->x[i] - s->x_start[i]) / h;
         bool prescribed = s->is_dirichlet[i / 3];
-        state->velocity[i] = prescribed || beta == 1 ? average : average / beta - (1 - beta) / beta * state->velocity[i];
+        if (s->options.quasistatic) average = 0;
+        state->velocity[i] = s->options.quasistatic || prescribed || beta == 1 ? average : average / beta - (1 - beta) / beta * state->velocity[i];
     }
     state->step++;
     state->time = state->step * h;
@@ -234,22 +237,45 @@ static cipc_status physical_energies(cipc_stepper *s, const cipc_state *state, c
     return status;
 }
 
-static cipc_status take_step(cipc_stepper *s, cipc_state *state, cipc_error *error)
+/* From x^n: scripted motion, contacts, stiffness, then the minimum of the present stage's E. */
+static cipc_status solve(cipc_stepper *s, double time, cipc_error *error)
 {
-    memcpy(s->x_start, state->position, 3 * (size_t)s->model->node_count * sizeof(double));
     memcpy(s->x, s->x_start, 3 * (size_t)s->model->node_count * sizeof(double));
-    s->kappa = state->barrier_stiffness;
-    s->strain_factor = state->strain_stiffness_factor;
-    s->step = state->step;
     s->noise = 0;
     s->friction.count = 0;
     s->contacts.count = 0;
     memset(&s->limit, 0, sizeof s->limit);
-    predict(s, state);
-    cipc_status status = cipc_dirichlet_begin(s, state->time, error);
+    cipc_status status = cipc_dirichlet_begin(s, time, error);
     if (!status) status = cipc_cache_cover(s, s->x, NULL, error);
     if (!status) status = choose_stiffness(s, error);
     return status ? status : minimise(s, error);
+}
+
+/* Split limits: the predictor may leave the limits; the projection starts from x^n again, which keeps them, and goes as near to the predictor as they and contact let it. */
+static cipc_status solve_split(cipc_stepper *s, double time, cipc_error *error)
+{
+    s->stage = CIPC_STAGE_PREDICT;
+    cipc_status status = solve(s, time, error);
+    if (status) {
+        memcpy(s->x, s->x_start, 3 * (size_t)s->model->node_count * sizeof(double)); /* the last point that keeps the limits */
+        return status;
+    }
+    memcpy(s->x_hat, s->x, 3 * (size_t)s->model->node_count * sizeof(double));
+    s->stage = CIPC_STAGE_PROJECT;
+    return solve(s, time, error);
+}
+
+static cipc_status take_step(cipc_stepper *s, cipc_state *state, cipc_error *error)
+{
+    memcpy(s->x_start, state->position, 3 * (size_t)s->model->node_count * sizeof(double));
+    s->kappa = state->barrier_stiffness;
+    s->strain_factor = state->strain_stiffness_factor;
+    s->step = state->step;
+    predict(s, state);
+    bool split = s->options.strain_coupling == CIPC_STRAIN_SPLIT && s->groups[CIPC_GROUP_STRAIN_LIMIT].count > 0;
+    cipc_status status = split ? solve_split(s, state->time, error) : solve(s, state->time, error);
+    s->stage = CIPC_STAGE_WHOLE;
+    return status;
 }
 
 static void fill_report(const cipc_stepper *s, cipc_step_report *r, double seconds)

@@ -40,6 +40,9 @@ typedef struct cipc_limit {
     int nodes[4];
 } cipc_limit;
 
+/* What a solve minimises: all of E; or, with split strain limits, first E without limits, then the distance to its minimum with limits and contact (SPEC 6.3). */
+typedef enum cipc_stage { CIPC_STAGE_WHOLE = 0, CIPC_STAGE_PREDICT, CIPC_STAGE_PROJECT } cipc_stage;
+
 struct cipc_stepper {
     const cipc_model *model;
     cipc_implicit_options options;
@@ -62,6 +65,7 @@ struct cipc_stepper {
     int *free_nodes, free_count;
     double penalty;               /* k_D of nodes that could not be moved at once; 0: none */
     double kappa, strain_factor;
+    cipc_stage stage;             /* what of E this solve minimises */
     double noise;                 /* bound on the rounding error of E near the iterate, J */
     cipc_contact_set contacts, trial_contacts;
     cipc_friction_set friction;
@@ -129,6 +133,18 @@ static inline const void *cipc_term_params(const cipc_term_list *list, int i)
     return list->energy ? (const void *)p : (const void *)&((const cipc_contact *)(const void *)p)->barrier;
 }
 static inline const int *cipc_term_nodes(const cipc_term_list *list, int i) { return (const int *)(const void *)(list->nodes + (size_t)i * list->nodes_stride); }
+
+/* Factor m of a node's drag 1/2 m |x - x^n|^2 by mass-proportional damping, kg; its inertia has that factor too, or none in an equilibrium. */
+static inline double cipc_drag_mass(const cipc_stepper *s, int node)
+{
+    const cipc_material *material = &s->model->bodies[s->model->node_body[node]].material;
+    if (s->stage == CIPC_STAGE_PROJECT) return 0;
+    return material->damping_mass * s->options.integrator.alpha * s->options.time_step * s->model->mass[node];
+}
+static inline double cipc_inertial_mass(const cipc_stepper *s, int node)
+{
+    return s->options.quasistatic && s->stage != CIPC_STAGE_PROJECT ? 0 : s->model->mass[node];
+}
 
 /* assembly.c: projected Hessian of E at s->x into s->matrix; keeps pattern and symbolic factorisation while they fit. Call cipc_potential_gradient first:
  * it fills s->blend. */

@@ -38,6 +38,7 @@ static bool below_limit(const cipc_stepper *s, int i, const double *x, const dou
 bool cipc_strain_feasible(const cipc_stepper *s, const double *x)
 {
     bool good = true;
+    if (s->stage == CIPC_STAGE_PREDICT) return true;
 #pragma omp parallel for schedule(static) num_threads(s->options.threads) reduction(&& : good)
     for (int i = 0; i < s->groups[CIPC_GROUP_STRAIN_LIMIT].count; i++) good = good && below_limit(s, i, x, NULL, 0);
     return good;
@@ -48,6 +49,7 @@ double cipc_strain_step(cipc_stepper *s, const double *x, const double *p)
 {
     double step = 1;
     int limiting = -1;
+    if (s->stage == CIPC_STAGE_PREDICT) return 1;
     for (int i = 0; i < s->groups[CIPC_GROUP_STRAIN_LIMIT].count; i++) {
         if (below_limit(s, i, x, p, step)) continue;
         double low = 0, high = step;
@@ -74,6 +76,7 @@ double cipc_strain_step(cipc_stepper *s, const double *x, const double *p)
 bool cipc_strain_adapt(cipc_stepper *s)
 {
     bool twice = false;
+    if (s->stage == CIPC_STAGE_PREDICT) return false;
     for (int i = 0; i < s->groups[CIPC_GROUP_STRAIN_LIMIT].count; i++) {
         const cipc_strain_limit *params = limit_params(s, i);
         bool near = params->limit - stretch(s, i, s->x, NULL, 0) < near_limit_fraction * (params->limit - params->activation);
