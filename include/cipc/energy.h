@@ -85,6 +85,41 @@ double cipc_hinge_bending_value(const double x[12], const cipc_hinge_bending *pa
 void cipc_hinge_bending_gradient(const double x[12], const cipc_hinge_bending *params, double g[12]);
 void cipc_hinge_bending_hessian(const double x[12], const cipc_hinge_bending *params, double H[144]);
 
+/* --- rods and stitches ------------------------------------------------------------------------------------------------------- */
+
+/* Rod stretching: E A l0/2 (l/l0 - 1)^2, A = pi d^2/4 (SPEC C.6). x = ends. At l = 0 there is a value, but no gradient. */
+typedef struct cipc_rod_stretching {
+    double stiffness; /* E A, N */
+    double length;    /* l0, m */
+} cipc_rod_stretching;
+/* Returns false for a segment of no length at rest. */
+bool cipc_rod_stretching_init(cipc_rod_stretching *params, const double rest[6], double diameter, double young);
+double cipc_rod_stretching_value(const double x[6], const cipc_rod_stretching *params);
+void cipc_rod_stretching_gradient(const double x[6], const cipc_rod_stretching *params, double g[6]);
+void cipc_rod_stretching_hessian(const double x[6], const cipc_rod_stretching *params, double H[36]);
+
+/* Rod bending (Bergou 2008, isotropic; SPEC C.6): E I/Lbar (|kb| - |kb|_rest)^2, kb = 2 e0 x e1/(|e0||e1| + e0.e1), I = pi d^4/64, Lbar the sum of the rest lengths.
+ * x = end, joint, end. INFINITY where the joint is folded back or a segment has no length. A rod that is curved at rest knows how much, not in which plane: its energy has
+ * the tip of a cone where it is straight, and no derivatives there. */
+typedef struct cipc_rod_bending {
+    double stiffness;      /* E I/Lbar, J */
+    double rest_curvature; /* |kb| at rest = 2 tan(phi/2), phi the turning angle; 0: straight */
+} cipc_rod_bending;
+/* `curved`: bent at rest like `rest`. Returns false for a segment of no length or a joint folded back at rest. */
+bool cipc_rod_bending_init(cipc_rod_bending *params, const double rest[9], double diameter, double young, bool curved);
+double cipc_rod_bending_value(const double x[9], const cipc_rod_bending *params);
+void cipc_rod_bending_gradient(const double x[9], const cipc_rod_bending *params, double g[9]);
+void cipc_rod_bending_hessian(const double x[9], const cipc_rod_bending *params, double H[81]);
+
+/* Stitch: k/2 |x0 - ((1 - r) x1 + r x2)|^2 (SPEC C.6). x = node, ends of the edge. */
+typedef struct cipc_stitch {
+    double stiffness; /* k, N/m */
+    double ratio;     /* r in [0, 1] */
+} cipc_stitch;
+double cipc_stitch_value(const double x[9], const cipc_stitch *params);
+void cipc_stitch_gradient(const double x[9], const cipc_stitch *params, double g[9]);
+void cipc_stitch_hessian(const double x[9], const cipc_stitch *params, double H[81]);
+
 /* --- contact ---------------------------------------------------------------------------------------------------------------- */
 
 /* The scalar barrier of SPEC C.4: b(D) = -(D - Dhat)^2 ln(D / Dhat) for 0 < D < Dhat, 0 beyond; b[0..2] = b, b', b''. D <= 0: b[0] = INFINITY, others 0. */
@@ -163,6 +198,7 @@ typedef struct cipc_energy {
 typedef enum cipc_energy_id {
     CIPC_ENERGY_INERTIA = 0, CIPC_ENERGY_GRAVITY, CIPC_ENERGY_DIRICHLET_PENALTY,
     CIPC_ENERGY_MEMBRANE_NEO_HOOKEAN, CIPC_ENERGY_MEMBRANE_STVK, CIPC_ENERGY_STRAIN_LIMIT, CIPC_ENERGY_HINGE_BENDING,
+    CIPC_ENERGY_ROD_STRETCHING, CIPC_ENERGY_ROD_BENDING, CIPC_ENERGY_STITCH,
     CIPC_ENERGY_BARRIER_POINT_POINT, CIPC_ENERGY_BARRIER_POINT_EDGE, CIPC_ENERGY_BARRIER_POINT_TRIANGLE, CIPC_ENERGY_BARRIER_EDGE_EDGE,
     CIPC_ENERGY_FRICTION,
     CIPC_ENERGY_COUNT

@@ -17,6 +17,9 @@ static const char *const penalty[] = {"stiffness", "mass", "target[0]", "target[
 static const char *const membrane[] = {"inverse_rest[0]", "inverse_rest[1]", "inverse_rest[2]", "area", "volume", "mu", "lambda"};
 static const char *const strain[] = {"inverse_rest[0]", "inverse_rest[1]", "inverse_rest[2]", "volume", "limit", "activation", "stiffness"};
 static const char *const hinge[] = {"stiffness", "rest_angle"};
+static const char *const stretching[] = {"stiffness", "length"};
+static const char *const bending[] = {"stiffness", "rest_curvature"};
+static const char *const stitch[] = {"stiffness", "ratio"};
 static const char *const barrier[] = {"stiffness", "weight", "offset", "dhat", "mollifier_eps", "feature"};
 static const char *const friction[] = {"coefficient", "eps",       "weights[0]", "weights[1]", "weights[2]", "weights[3]", "basis[0]", "basis[1]",
                                        "basis[2]",    "basis[3]",  "basis[4]",   "basis[5]",   "start[0]",   "start[1]",   "start[2]", "start[3]",
@@ -31,6 +34,9 @@ static const entry table[] = {
     {{"membrane_stvk", 3, 7, membrane}, oracle_membrane_stvk},
     {{"strain_limit", 3, 7, strain}, oracle_strain_limit},
     {{"hinge_bending", 4, 2, hinge}, oracle_hinge_bending},
+    {{"rod_stretching", 2, 2, stretching}, oracle_rod_stretching},
+    {{"rod_bending", 3, 2, bending}, oracle_rod_bending},
+    {{"stitch", 3, 2, stitch}, oracle_stitch},
     {{"barrier_point_point", 2, 4, barrier}, oracle_barrier_point_point},
     {{"barrier_point_edge", 3, 4, barrier}, oracle_barrier_point_edge},
     {{"barrier_point_triangle", 4, 4, barrier}, oracle_barrier_point_triangle},
