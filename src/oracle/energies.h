@@ -15,6 +15,9 @@ mpfr_ptr oracle_hinge_bending(oracle_reals *s, const mpfr_t *x, const double *fi
 mpfr_ptr oracle_rod_stretching(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_rod_bending(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_stitch(oracle_reals *s, const mpfr_t *x, const double *fields);
+mpfr_ptr oracle_volume_corotational(oracle_reals *s, const mpfr_t *x, const double *fields);
+mpfr_ptr oracle_volume_neo_hookean(oracle_reals *s, const mpfr_t *x, const double *fields);
+mpfr_ptr oracle_membrane_orthotropic(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_barrier_point_point(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_barrier_point_edge(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_barrier_point_triangle(oracle_reals *s, const mpfr_t *x, const double *fields);
