@@ -71,21 +71,24 @@ double cipc_membrane_orthotropic_value(const double x[9], const cipc_orthotropic
 void cipc_membrane_orthotropic_gradient(const double x[9], const cipc_orthotropic *params, double g[9]);
 void cipc_membrane_orthotropic_hessian(const double x[9], const cipc_orthotropic *params, double H[81]);
 
-/* Isotropic strain limit: kappa_s V sum_i b(sigma_i), sigma_i the singular values of F, b of SPEC C.2 (eqs 4-7 as corrected there). */
+/* Isotropic strain limit: kappa_s V sum_i b(sigma_i), sigma_i the singular values of F, b of SPEC C.2 (eqs 4-7 as corrected there). Upper: stretches above shat, up to s > shat.
+ * Lower: stretches below shat, down to s < shat. */
 typedef struct cipc_strain_limit {
     double inverse_rest[3];
     double volume;
     double limit;      /* s */
-    double activation; /* shat */
+    double activation; /* shat; below s: an upper limit, above: a lower one */
     double stiffness;  /* kappa_s, Pa */
 } cipc_strain_limit;
 bool cipc_strain_limit_init(cipc_strain_limit *params, const double rest[9], double thickness, double limit, double activation, double stiffness);
 double cipc_strain_limit_value(const double x[9], const cipc_strain_limit *params);
 void cipc_strain_limit_gradient(const double x[9], const cipc_strain_limit *params, double g[9]);
 void cipc_strain_limit_hessian(const double x[9], const cipc_strain_limit *params, double H[81]);
+/* Are these stretches on the allowed side of the limit, by a relative margin? */
+bool cipc_strain_limit_feasible(const double sigma[2], const cipc_strain_limit *params, double margin);
 /* Principal stretches sigma_1 >= sigma_2 >= 0 of a triangle. */
 void cipc_principal_stretches(const double x[9], const double inverse_rest[3], double sigma[2]);
-/* The scalar barrier b(sigma) and its first two derivatives; 0 for sigma <= shat. Requires sigma < s. */
+/* The scalar barrier b(sigma) and its first two derivatives; 0 up to shat. Requires sigma short of s. */
 void cipc_strain_limit_barrier(double sigma, double limit, double activation, double b[3]);
 
 /* --- hinges: x = v0, v1 (shared edge), v2, v3; triangles (v0,v1,v2) and (v1,v0,v3) ------------------------------------------ */

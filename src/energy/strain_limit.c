@@ -1,5 +1,5 @@
 /* Isotropic strain limit: kappa_s V sum_i b(sigma_i) over the principal stretches, infinite at sigma = s
- * (SPEC C.2, F6; docs/theory/energies.md (15)-(20)). */
+ * (SPEC C.2, F6; docs/theory/energies.md (15)-(20)). An upper limit has s > shat, a lower one s < shat: in t = (sigma - shat)/(s - shat) both are the same. */
 #include "cipc/energy.h"
 #include "energy/blocks.h"
 #include "energy/membrane.h"
@@ -36,14 +36,14 @@ void cipc_strain_limit_barrier(double sigma, double limit, double activation, do
     b[2] = (-2 * log_q + 4 * ratio + ratio * ratio) / (width * width);
 }
 
-/* (20): [b'(sigma_1) - b'(sigma_2)] / (sigma_1 - sigma_2) for sigma_1 >= sigma_2, both above shat; b'' where they meet. */
+/* (20): [b'(sigma_1) - b'(sigma_2)] / (sigma_1 - sigma_2) for sigma_1 >= sigma_2, both past shat; b'' where they meet. */
 static double slope_difference_quotient(const double sigma[2], double limit, double activation)
 {
     double width = limit - activation;
     double t1 = (sigma[0] - activation) / width, q1 = (limit - sigma[0]) / width;
     double t2 = (sigma[1] - activation) / width, q2 = (limit - sigma[1]) / width;
     double z = (sigma[0] - sigma[1]) / (limit - sigma[1]);
-    double mean_log = z > 0 ? -log_of_complement(z, q1 / q2) / z : 1; /* -ln(1 - z)/z */
+    double mean_log = z != 0 ? -log_of_complement(z, q1 / q2) / z : 1; /* -ln(1 - z)/z */
     return (-2 * log_of_complement(t1, q1) + 2 * (t2 / q2) * mean_log + (t1 + t2 * q1) / (q1 * q2)) / (width * width);
 }
 
@@ -109,14 +109,34 @@ static singular singular_of(double f[2][3], const metric *m)
     return s;
 }
 
+/* Is this stretch past the threshold, on the side of the limit? */
+static bool is_active(double sigma, const cipc_strain_limit *params)
+{
+    return params->limit > params->activation ? sigma > params->activation : sigma < params->activation;
+}
+
+bool cipc_strain_limit_feasible(const double sigma[2], const cipc_strain_limit *params, double margin)
+{
+    if (params->limit > params->activation) return sigma[0] < params->limit * (1 - margin);
+    return sigma[1] > params->limit * (1 + margin);
+}
+
 double cipc_strain_limit_value(const double x[9], const cipc_strain_limit *params)
 {
     double sigma[2], b1[3], b2[3];
     cipc_principal_stretches(x, params->inverse_rest, sigma);
-    if (!(sigma[0] < params->limit)) return INFINITY;
+    if (!cipc_strain_limit_feasible(sigma, params, 0)) return INFINITY;
     cipc_strain_limit_barrier(sigma[0], params->limit, params->activation, b1);
     cipc_strain_limit_barrier(sigma[1], params->limit, params->activation, b2);
     return params->stiffness * params->volume * (b1[0] + b2[0]);
+}
+
+/* Neither stretch is past the threshold: nothing acts, and no directions are needed. */
+static bool is_idle(double f[2][3], const metric *m, const cipc_strain_limit *params)
+{
+    double sigma[2];
+    stretches_of(f, m, sigma);
+    return !is_active(sigma[0], params) && !is_active(sigma[1], params);
 }
 
 /* Weights of the nodes in the singular basis: alpha[a][i] = w_i.v_a. */
@@ -134,7 +154,7 @@ void cipc_strain_limit_gradient(const double x[9], const cipc_strain_limit *para
     double f[2][3], alpha[2][3], b1[3], b2[3];
     deformation_gradient(x, params->inverse_rest, f);
     metric m = metric_of(f);
-    if (sqrt(m.largest) <= params->activation) {
+    if (is_idle(f, &m, params)) {
         put_zeros(g, 9);
         return;
     }
@@ -160,14 +180,14 @@ static curvature curvature_of(const double sigma[2], const cipc_strain_limit *pa
     double b1[3], b2[3], scale = params->stiffness * params->volume;
     cipc_strain_limit_barrier(sigma[0], params->limit, params->activation, b1);
     cipc_strain_limit_barrier(sigma[1], params->limit, params->activation, b2);
-    double difference =
-        sigma[1] > params->activation ? slope_difference_quotient(sigma, params->limit, params->activation) : b1[1] / (sigma[0] - sigma[1]);
+    bool both = is_active(sigma[0], params) && is_active(sigma[1], params);
+    double difference = both ? slope_difference_quotient(sigma, params->limit, params->activation) : (b1[1] - b2[1]) / (sigma[0] - sigma[1]);
     double sum = (b1[1] + b2[1]) / (sigma[0] + sigma[1]);
     return (curvature){
         .along = {scale * b1[2], scale * b2[2]},
         .shear = 0.5 * scale * (difference + sum),
         .coupling = 0.5 * scale * (difference - sum),
-        .out = {scale * b1[1] / sigma[0], sigma[1] > params->activation ? scale * b2[1] / sigma[1] : 0},
+        .out = {scale * b1[1] / sigma[0], is_active(sigma[1], params) ? scale * b2[1] / sigma[1] : 0},
     };
 }
 
@@ -192,7 +212,7 @@ void cipc_strain_limit_hessian(const double x[9], const cipc_strain_limit *param
     double f[2][3], alpha[2][3];
     deformation_gradient(x, params->inverse_rest, f);
     metric m = metric_of(f);
-    if (sqrt(m.largest) <= params->activation) {
+    if (is_idle(f, &m, params)) {
         put_zeros(H, 81);
         return;
     }

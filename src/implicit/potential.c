@@ -171,12 +171,16 @@ cipc_status cipc_potential_value(cipc_stepper *s, const double *x, const cipc_co
     blend_positions(s, x, s->blend);
     for (int l = 0; l < CIPC_LIST_COUNT; l++) value[l] = list_value(s, &lists[l], x);
     node_values(s, x, &terms->inertia, &terms->penalty);
-    terms->membrane = value[CIPC_GROUP_NEO_HOOKEAN] + value[CIPC_GROUP_STVK];
-    terms->bending = value[CIPC_GROUP_HINGE];
+    terms->membrane = value[CIPC_GROUP_NEO_HOOKEAN] + value[CIPC_GROUP_STVK] + value[CIPC_GROUP_ORTHOTROPIC];
+    terms->bending = value[CIPC_GROUP_HINGE] + value[CIPC_GROUP_ROD_BENDING];
+    terms->stretching = value[CIPC_GROUP_ROD_STRETCHING];
+    terms->volume = value[CIPC_GROUP_COROTATIONAL] + value[CIPC_GROUP_VOLUME_NEO_HOOKEAN];
+    terms->stitches = value[CIPC_GROUP_STITCH];
     terms->strain_limit = value[CIPC_GROUP_STRAIN_LIMIT];
     terms->barrier = value[CIPC_LIST_CONTACT];
     terms->friction = value[CIPC_LIST_FRICTION];
-    terms->total = terms->inertia + terms->membrane + terms->bending + terms->strain_limit + terms->barrier + terms->friction + terms->penalty;
+    terms->total = terms->inertia + terms->membrane + terms->bending + terms->strain_limit + terms->barrier + terms->friction + terms->penalty +
+                   terms->stretching + terms->volume + terms->stitches;
     terms->noise = s->noise;
     return CIPC_OK;
 }
@@ -187,6 +191,18 @@ static double cancelling_size(int list, const void *params, const double *y)
     if (list == CIPC_GROUP_HINGE) return ((const cipc_hinge_bending *)params)->stiffness;
     if (list == CIPC_GROUP_NEO_HOOKEAN || list == CIPC_GROUP_STVK) {
         const cipc_membrane *m = params;
+        return m->volume * (m->mu + fabs(m->lambda));
+    }
+    if (list == CIPC_GROUP_ORTHOTROPIC) {
+        const cipc_orthotropic *m = params;
+        return m->volume * (m->moduli[0] + fabs(m->moduli[1]) + m->moduli[2] + m->moduli[3]);
+    }
+    if (list == CIPC_GROUP_ROD_BENDING) {
+        const cipc_rod_bending *rod = params;
+        return rod->stiffness * (1 + rod->rest_curvature);
+    }
+    if (list == CIPC_GROUP_COROTATIONAL || list == CIPC_GROUP_VOLUME_NEO_HOOKEAN) {
+        const cipc_volume *m = params;
         return m->volume * (m->mu + fabs(m->lambda));
     }
     if (list == CIPC_LIST_FRICTION) {

@@ -219,7 +219,7 @@ static cipc_status elastic_energy(cipc_stepper *s, double *elastic, cipc_error *
     s->options.integrator = euler;
     if (own.beta != 1 || own.alpha != 1) status = cipc_potential_value(s, s->x, &s->contacts, &terms, error);
     s->options.integrator = own;
-    *elastic = (terms.membrane + terms.bending + terms.strain_limit) / (s->options.time_step * s->options.time_step);
+    *elastic = (terms.membrane + terms.bending + terms.stretching + terms.volume + terms.stitches + terms.strain_limit) / (s->options.time_step * s->options.time_step);
     return status;
 }
 

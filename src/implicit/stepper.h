@@ -16,7 +16,11 @@ typedef struct cipc_element_group {
     int *triangles; /* strain limit only: which triangle each element is */
 } cipc_element_group;
 
-enum { CIPC_GROUP_NEO_HOOKEAN = 0, CIPC_GROUP_STVK, CIPC_GROUP_HINGE, CIPC_GROUP_STRAIN_LIMIT, CIPC_GROUP_COUNT };
+enum {
+    CIPC_GROUP_NEO_HOOKEAN = 0, CIPC_GROUP_STVK, CIPC_GROUP_ORTHOTROPIC, CIPC_GROUP_HINGE,
+    CIPC_GROUP_ROD_STRETCHING, CIPC_GROUP_ROD_BENDING, CIPC_GROUP_COROTATIONAL, CIPC_GROUP_VOLUME_NEO_HOOKEAN, CIPC_GROUP_STITCH,
+    CIPC_GROUP_STRAIN_LIMIT, CIPC_GROUP_COUNT
+};
 
 /* Lagged friction: one entry a contact that has any (SPEC D.6). */
 typedef struct cipc_friction_set {
@@ -158,7 +162,8 @@ void cipc_cache_recentre(cipc_stepper *s);
 /* Contact set at x from the cached candidates, which must cover it. */
 cipc_status cipc_contacts_at(cipc_stepper *s, const double *x, cipc_contact_set *set, cipc_error *error);
 
-/* strain.c: all limited triangles strictly below their limit (with a margin for rounding). The largest step along p that keeps them so. */
+/* strain.c: all limited triangles strictly within their limits and all tetrahedra of positive volume (with a margin for rounding). A step along p, the largest but for a
+ * fraction, at whose end they are so. */
 bool cipc_strain_feasible(const cipc_stepper *s, const double *x);
 double cipc_strain_step(cipc_stepper *s, const double *x, const double *p);
 /* Doubles s->strain_factor by the rule of SPEC C.2; true if it did. */

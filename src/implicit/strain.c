@@ -15,62 +15,121 @@ static const double fraction_to_limit = 0.9;
 /* Doubling rule of SPEC C.2: slack below this fraction of (s - shat) in two iterates; stiffness cap, Pa. */
 static const double near_limit_fraction = 1e-4, stiffness_cap = 1e5;
 
-static const cipc_strain_limit *limit_params(const cipc_stepper *s, int i) { return (const cipc_strain_limit *)s->groups[CIPC_GROUP_STRAIN_LIMIT].params + i; }
-
-/* sigma_1 of limited triangle i at x + alpha p. */
-static double stretch(const cipc_stepper *s, int i, const double *x, const double *p, double alpha)
+/* The groups that have limits, and whether an element of theirs at y keeps its own by the margin. */
+static bool keeps_stretch(const void *params, const double *y)
 {
-    double y[9], sigma[2];
-    const int *nodes = s->groups[CIPC_GROUP_STRAIN_LIMIT].nodes + 3 * i;
-    for (int k = 0; k < 3; k++) {
+    double sigma[2];
+    cipc_principal_stretches(y, ((const cipc_strain_limit *)params)->inverse_rest, sigma);
+    return cipc_strain_limit_feasible(sigma, params, stretch_margin);
+}
+
+/* A Green strain has an error of some u of the squared stretch, 1 + 2 E, not of itself. */
+static bool keeps_strains(const void *params, const double *y)
+{
+    const cipc_orthotropic *p = params;
+    double strain[3], margin = stretch_margin;
+    cipc_orthotropic_strains(y, p, strain);
+    for (int k = 0; k < 3; k++) margin += 2 * stretch_margin * fabs(strain[k]);
+    for (int k = 0; k < 3; k++)
+        if (!(fabs(strain[k]) < p->limits[k] - margin)) return false;
+    return true;
+}
+
+/* Volume against the product of the edges' lengths: its sign is then that of the exact volume. */
+static bool keeps_volume(const void *params, const double *y)
+{
+    double e[3][3], n[3];
+    (void)params;
+    for (int i = 0; i < 3; i++) v3_sub(e[i], y + 3 + 3 * i, y);
+    v3_cross(n, e[0], e[1]);
+    return v3_dot(n, e[2]) > stretch_margin * v3_norm(e[0]) * v3_norm(e[1]) * v3_norm(e[2]);
+}
+
+typedef struct limited_group {
+    int group;
+    bool (*keeps)(const void *params, const double *y);
+} limited_group;
+static const limited_group limited[] = {
+    {CIPC_GROUP_STRAIN_LIMIT, keeps_stretch}, {CIPC_GROUP_ORTHOTROPIC, keeps_strains}, {CIPC_GROUP_COROTATIONAL, keeps_volume}, {CIPC_GROUP_VOLUME_NEO_HOOKEAN, keeps_volume}};
+enum { LIMITED = sizeof limited / sizeof *limited };
+
+/* Does element i at x + alpha p keep its limit? The predictor of a split step knows no strain limits. */
+static bool keeps_limit(const cipc_stepper *s, const limited_group *l, int i, const double *x, const double *p, double alpha)
+{
+    double y[12];
+    const cipc_element_group *g = &s->groups[l->group];
+    const int *nodes = g->nodes + g->energy->nodes * i;
+    for (int k = 0; k < g->energy->nodes; k++) {
         v3_copy(y + 3 * k, x + 3 * nodes[k]);
         if (p) v3_axpy(y + 3 * k, alpha, p + 3 * nodes[k]);
     }
-    cipc_principal_stretches(y, limit_params(s, i)->inverse_rest, sigma);
-    return sigma[0];
+    return l->keeps((const char *)g->params + g->energy->params_size * (size_t)i, y);
 }
 
-static bool below_limit(const cipc_stepper *s, int i, const double *x, const double *p, double alpha)
+static int limited_count(const cipc_stepper *s, const limited_group *l)
 {
-    return stretch(s, i, x, p, alpha) < limit_params(s, i)->limit * (1 - stretch_margin);
+    return s->stage == CIPC_STAGE_PREDICT && l->group == CIPC_GROUP_STRAIN_LIMIT ? 0 : s->groups[l->group].count;
 }
 
 bool cipc_strain_feasible(const cipc_stepper *s, const double *x)
 {
     bool good = true;
-    if (s->stage == CIPC_STAGE_PREDICT) return true;
+    for (const limited_group *l = limited; l < limited + LIMITED; l++) {
+        int count = limited_count(s, l);
 #pragma omp parallel for schedule(static) num_threads(s->options.threads) reduction(&& : good)
-    for (int i = 0; i < s->groups[CIPC_GROUP_STRAIN_LIMIT].count; i++) good = good && below_limit(s, i, x, NULL, 0);
+        for (int i = 0; i < count; i++) good = good && keeps_limit(s, l, i, x, NULL, 0);
+    }
     return good;
 }
 
-/* sigma_1 is a convex function of the positions (a norm of F), so along a line the feasible steps are an interval from 0: bisection finds its end. */
+/* The end of a step at which element i keeps its limit, by bisection of [0, step]. */
+static double feasible_end(const cipc_stepper *s, const limited_group *l, int i, const double *x, const double *p, double step)
+{
+    double low = 0, high = step;
+    for (int k = 0; k < BISECTIONS; k++) {
+        double middle = 0.5 * (low + high);
+        if (keeps_limit(s, l, i, x, p, middle)) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+/* sigma_1 is a convex function of the positions (a norm of F), so for an upper limit the feasible steps along a line are an interval from 0. The other limits are not convex: there
+ * the step found is feasible, but need not be the largest. An element that an earlier one has cut the step for is looked at again when the point is tried. */
 double cipc_strain_step(cipc_stepper *s, const double *x, const double *p)
 {
     double step = 1;
-    int limiting = -1;
-    if (s->stage == CIPC_STAGE_PREDICT) return 1;
-    for (int i = 0; i < s->groups[CIPC_GROUP_STRAIN_LIMIT].count; i++) {
-        if (below_limit(s, i, x, p, step)) continue;
-        double low = 0, high = step;
-        for (int k = 0; k < BISECTIONS; k++) {
-            double middle = 0.5 * (low + high);
-            if (below_limit(s, i, x, p, middle)) low = middle;
-            else high = middle;
+    const int *limiting = NULL;
+    int limiting_nodes = 0;
+    for (const limited_group *l = limited; l < limited + LIMITED; l++) {
+        const cipc_element_group *g = &s->groups[l->group];
+        for (int i = 0, count = limited_count(s, l); i < count; i++) {
+            if (keeps_limit(s, l, i, x, p, step)) continue;
+            step = feasible_end(s, l, i, x, p, step);
+            limiting = g->nodes + g->energy->nodes * i;
+            limiting_nodes = g->energy->nodes;
         }
-        step = low;
-        limiting = i;
     }
-    if (limiting < 0) return 1;
+    if (!limiting) return 1;
     if (s->options.released) { /* SPEC R.2: halved from 1 until feasible */
         double halved = 1;
         while (halved > step) halved *= 0.5;
         step = halved / fraction_to_limit;
     }
-    s->limit.what = "strain limit";
-    for (int k = 0; k < 3; k++) s->limit.nodes[k] = s->groups[CIPC_GROUP_STRAIN_LIMIT].nodes[3 * limiting + k];
-    s->limit.nodes[3] = -1;
+    s->limit.what = limiting_nodes == 4 ? "inversion" : "strain limit";
+    for (int k = 0; k < 4; k++) s->limit.nodes[k] = k < limiting_nodes ? limiting[k] : -1;
     return fraction_to_limit * step;
+}
+
+/* What is left of (s - shat), as a fraction, at the stretch nearest to the limit. */
+static double slack(const cipc_stepper *s, int i)
+{
+    double y[9], sigma[2];
+    const cipc_element_group *g = &s->groups[CIPC_GROUP_STRAIN_LIMIT];
+    const cipc_strain_limit *params = (const cipc_strain_limit *)g->params + i;
+    for (int k = 0; k < 3; k++) v3_copy(y + 3 * k, s->x + 3 * g->nodes[3 * i + k]);
+    cipc_principal_stretches(y, params->inverse_rest, sigma);
+    return (params->limit - sigma[params->limit < params->activation]) / (params->limit - params->activation);
 }
 
 bool cipc_strain_adapt(cipc_stepper *s)
@@ -78,8 +137,7 @@ bool cipc_strain_adapt(cipc_stepper *s)
     bool twice = false;
     if (s->stage == CIPC_STAGE_PREDICT) return false;
     for (int i = 0; i < s->groups[CIPC_GROUP_STRAIN_LIMIT].count; i++) {
-        const cipc_strain_limit *params = limit_params(s, i);
-        bool near = params->limit - stretch(s, i, s->x, NULL, 0) < near_limit_fraction * (params->limit - params->activation);
+        bool near = slack(s, i) < near_limit_fraction;
         twice = twice || (near && s->near_limit[i]);
         s->near_limit[i] = near;
     }

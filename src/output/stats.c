@@ -89,7 +89,8 @@ static const field energy_fields[] = {
 #define TERM_FIELD(name) {#name, REAL, offsetof(cipc_step_report, incremental.name)}
 static const field term_fields[] = {
     TERM_FIELD(inertia), TERM_FIELD(membrane), TERM_FIELD(bending), TERM_FIELD(strain_limit), TERM_FIELD(barrier),
-    TERM_FIELD(friction), TERM_FIELD(penalty), TERM_FIELD(total), TERM_FIELD(noise),
+    TERM_FIELD(friction), TERM_FIELD(penalty), TERM_FIELD(stretching), TERM_FIELD(volume), TERM_FIELD(stitches),
+    TERM_FIELD(total), TERM_FIELD(noise),
 };
 
 #define COUNT(array) (sizeof(array) / sizeof(array)[0])
