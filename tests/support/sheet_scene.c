@@ -43,8 +43,25 @@ void sheet_scene_free(sheet_scene *scene)
         free((void *)(uintptr_t)scene->bodies[b].position);
         free((void *)(uintptr_t)scene->bodies[b].velocity);
         free((void *)(uintptr_t)scene->bodies[b].triangles);
+        free((void *)(uintptr_t)scene->bodies[b].segments);
+        free((void *)(uintptr_t)scene->bodies[b].tetrahedra);
     }
     memset(scene, 0, sizeof *scene);
+}
+
+cipc_body_description *sheet_add(sheet_scene *scene, const cipc_body_description *body)
+{
+    assert_true(scene->body_count < SHEET_SCENE_BODIES);
+    cipc_body_description *d = &scene->bodies[scene->body_count++];
+    size_t numbers = 3 * (size_t)body->node_count * sizeof(double);
+    *d = *body;
+    d->rest = copy_of(body->rest, numbers);
+    d->position = copy_of(body->position, numbers);
+    d->velocity = copy_of(body->velocity, numbers);
+    d->triangles = body->triangle_count ? copy_of(body->triangles, (size_t)body->triangle_count * sizeof *body->triangles) : NULL;
+    d->segments = body->segment_count ? copy_of(body->segments, (size_t)body->segment_count * sizeof *body->segments) : NULL;
+    d->tetrahedra = body->tetrahedron_count ? copy_of(body->tetrahedra, (size_t)body->tetrahedron_count * sizeof *body->tetrahedra) : NULL;
+    return d;
 }
 
 cipc_body_description *sheet_add_body(sheet_scene *scene, const char *name, int nodes, const double *rest, int triangles,

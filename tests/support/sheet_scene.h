@@ -29,6 +29,8 @@ typedef struct sheet_scene {
 void sheet_scene_init(sheet_scene *scene);
 void sheet_scene_free(sheet_scene *scene);
 
+/* A body of any kind; the arrays are copied (velocity NULL: at rest). */
+cipc_body_description *sheet_add(sheet_scene *scene, const cipc_body_description *body);
 /* A cloth-like material: Neo-Hookean, bending, no strain limit. Change the description that is returned before building. */
 cipc_body_description *sheet_add_body(sheet_scene *scene, const char *name, int nodes, const double *rest, int triangles,
                                       const int (*triangle)[3]);
