@@ -14,12 +14,13 @@
  * them; paths_checked and exact_path_checks: the lists of an earlier look are used where they serve). */
 typedef struct cipc_invariant_report {
     double min_gap;       /* min over pairs within reach of d - xi, m: the exact minimum, rounded to nearest; INFINITY: none within reach */
-    int min_gap_nodes[4]; /* the pair: -1 for unused; point first, or edge a then edge b. Of pairs with the same rounded gap the first */
-    int min_gap_is_edge_edge;
+    int min_gap_nodes[4]; /* the pair, in the order of its kind; -1 for unused. Of pairs with the same rounded gap the first */
+    cipc_pair_kind min_gap_kind;
     double max_stretch; /* largest principal stretch over all triangles of bodies that have a membrane or a limit: of the triangle that double
                          * arithmetic finds to be stretched most, the exact value rounded upwards */
     int max_stretch_triangle;                   /* -1: none */
-    double max_stretch_ratio;                   /* largest (sigma_1 - 1)/(s - 1) over limited triangles, likewise; 0 if none or below 0 */
+    double max_stretch_ratio;                   /* largest (sigma_1 - 1)/(s - 1) over limited triangles, likewise; of lower limits (1 - sigma_2)/(1 - s), of Green strains
+                                                 * |E|/L, to rounding; 0 if none or below 0 */
     long exact_gap_checks, exact_strain_checks; /* how often the filter had to hand over to exact arithmetic */
     long pairs_checked;                         /* point-triangle and edge-edge pairs with d - xi <= reach */
     long crossings_checked; /* edge-triangle pairs that no separating plane was found for: decided by the exact predicate */

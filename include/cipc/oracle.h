@@ -57,6 +57,10 @@ cipc_verdict cipc_exact_path_minimum(const cipc_stencil_path *path, double t, do
  * s^2 Ibar - I positive definite <=> +1, semi-definite <=> 0, else -1 (Ibar, I: first fundamental forms; all rational). s > 0.
  * Non-finite input proves nothing: -1. */
 int cipc_exact_compare_stretch(const double rest[9], const double x[9], double limit);
+/* Likewise the sign of sigma_2 - s for the least principal stretch: +1 if sigma_2 > s. */
+int cipc_exact_compare_least_stretch(const double rest[9], const double x[9], double limit);
+/* Exact sign of limit - |E| for the Green strain E = (f.g - rest)/2 of two directions f = a[0] (x1-x0) + a[1] (x2-x0), g likewise with b. -1 if a number is not finite. */
+int cipc_exact_compare_strain(const double x[9], const double a[2], const double b[2], double rest, double limit);
 
 /* --- values and derivatives (SPEC V.6) ------------------------------------------------------------------------------------------------------ */
 

@@ -18,7 +18,8 @@ enum { PART_SIZE = 16 };
 #define SMALLEST_SQUARE 0x1p-600
 
 /* The kinds of primitives of the two sides of a candidate kind. */
-static const int sides[CIPC_CANDIDATE_KINDS][2] = {{CIPC_POINTS, CIPC_TRIANGLES}, {CIPC_EDGES, CIPC_EDGES}, {CIPC_EDGES, CIPC_TRIANGLES}};
+static const int sides[CIPC_CANDIDATE_KINDS][2] = {{CIPC_POINTS, CIPC_TRIANGLES}, {CIPC_EDGES, CIPC_EDGES}, {CIPC_EDGES, CIPC_TRIANGLES},
+                                                   {CIPC_LOOSE_POINTS, CIPC_SEGMENTS}, {CIPC_PARTICLES, CIPC_PARTICLES}};
 
 double invariant_candidates_offset(const cipc_model *model, int node_a, int node_b)
 {
@@ -33,6 +34,39 @@ void cipc_gather(double *stencil, const double *x, const int *nodes, int n)
         stencil[3 * i + 1] = p[1];
         stencil[3 * i + 2] = p[2];
     }
+}
+
+cipc_pair_kind invariant_candidates_nodes(const invariant_candidates *c, invariant_candidate_kind kind, const int pair[2], int nodes[4])
+{
+    static const cipc_pair_kind kinds[CIPC_CANDIDATE_KINDS] = {CIPC_POINT_TRIANGLE, CIPC_EDGE_EDGE, CIPC_PAIR_KIND_COUNT, CIPC_POINT_EDGE, CIPC_POINT_POINT};
+    int count = 0;
+    for (int side = 0; side < 2; side++) {
+        const cipc_primitives *p = &c->primitives[sides[kind][side]];
+        for (int i = 0; i < p->size; i++) { nodes[count++] = p->nodes[p->size * pair[side] + i]; }
+    }
+    while (count < 4) { nodes[count++] = -1; }
+    return kinds[kind];
+}
+
+bool invariant_candidates_stencil(cipc_pair_kind kind, const double *x, const int nodes[4], double stencil[12])
+{
+    if (kind == CIPC_POINT_TRIANGLE || kind == CIPC_EDGE_EDGE) {
+        cipc_gather(stencil, x, nodes, 4);
+        return kind == CIPC_EDGE_EDGE;
+    }
+    const int edges[4] = {nodes[0], nodes[0], nodes[1], kind == CIPC_POINT_EDGE ? nodes[2] : nodes[1]};
+    cipc_gather(stencil, x, edges, 4);
+    return true;
+}
+
+int invariant_candidates_compare(cipc_pair_kind kind_a, const int nodes_a[4], cipc_pair_kind kind_b, const int nodes_b[4])
+{
+    static const int rank[CIPC_PAIR_KIND_COUNT] = {[CIPC_POINT_TRIANGLE] = 0, [CIPC_EDGE_EDGE] = 1, [CIPC_POINT_EDGE] = 2, [CIPC_POINT_POINT] = 3};
+    if (kind_a != kind_b) { return rank[kind_a] < rank[kind_b] ? -1 : 1; }
+    for (int i = 0; i < 4; i++) {
+        if (nodes_a[i] != nodes_b[i]) { return nodes_a[i] < nodes_b[i] ? -1 : 1; }
+    }
+    return 0;
 }
 
 /* --- creation --- */
@@ -82,10 +116,13 @@ static bool all_fixed(const bool *fixed, const int *nodes, int n)
 static bool init_primitives(invariant_candidates *c, cipc_primitives *p, int kind)
 {
     const cipc_model *m = c->model;
-    const int *const nodes[] = {c->point_nodes, (const int *)m->edges, (const int *)m->triangles};
-    const int count[] = {m->node_count, m->edge_count, m->triangle_count};
+    static const int sizes[CIPC_PRIMITIVE_KINDS] = {1, 2, 3, 1, 2, 1};
+    const int *segments = m->segment_count > 0 ? (const int *)(m->edges + m->first_segment) : NULL;
+    const int *const nodes[] = {c->point_nodes, (const int *)m->edges, (const int *)m->triangles, c->loose_nodes, segments, c->particle_nodes};
+    const int count[] = {c->primitives[CIPC_POINTS].count, m->edge_count, m->triangle_count, c->primitives[CIPC_LOOSE_POINTS].count, m->segment_count,
+                         c->primitives[CIPC_PARTICLES].count};
     p->count = count[kind];
-    p->size = kind + 1;
+    p->size = sizes[kind];
     p->nodes = nodes[kind];
     p->order = cipc_alloc((size_t)p->count, sizeof *p->order);
     if (!cipc_patch_tree_init(&p->tree, p->count) || p->order == NULL ||
@@ -94,6 +131,25 @@ static bool init_primitives(invariant_candidates *c, cipc_primitives *p, int kin
     }
     while (p->moving < p->count && !all_fixed(c->fixed, &p->nodes[p->size * p->order[p->moving]], p->size)) { p->moving++; }
     return true;
+}
+
+/* Put a node on the lists of points that it belongs to. */
+static void list_point(invariant_candidates *c, int node)
+{
+    const cipc_model *m = c->model;
+    cipc_body_kind kind = m->bodies[m->node_body[node]].kind;
+    bool particle = kind == CIPC_BODY_PARTICLES, interior = m->interior != NULL && m->interior[node];
+    if (!interior) { c->point_nodes[c->primitives[CIPC_POINTS].count++] = node; }
+    if (particle || kind == CIPC_BODY_RODS) { c->loose_nodes[c->primitives[CIPC_LOOSE_POINTS].count++] = node; }
+    if (particle) { c->particle_nodes[c->primitives[CIPC_PARTICLES].count++] = node; }
+}
+
+static bool any_apart(const cipc_model *m)
+{
+    for (int i = 0; m->pair_apart != NULL && i < m->body_count * m->body_count; i++) {
+        if (m->pair_apart[i]) { return true; }
+    }
+    return m->link_count > 0;
 }
 
 bool invariant_candidates_init(invariant_candidates *c, const cipc_model *model, double reach, double margin, int threads, bool skip_fixed)
@@ -105,16 +161,19 @@ bool invariant_candidates_init(invariant_candidates *c, const cipc_model *model,
     c->threads = threads;
     size_t n = (size_t)model->node_count;
     c->point_nodes = cipc_alloc(n, sizeof *c->point_nodes);
+    c->loose_nodes = cipc_alloc(n, sizeof *c->loose_nodes);
+    c->particle_nodes = cipc_alloc(n, sizeof *c->particle_nodes);
     c->fixed = cipc_alloc(n, sizeof *c->fixed);
     c->made_at = cipc_alloc(3 * n, sizeof *c->made_at);
-    if (c->point_nodes == NULL || c->fixed == NULL || c->made_at == NULL) { return false; }
+    if (c->point_nodes == NULL || c->loose_nodes == NULL || c->particle_nodes == NULL || c->fixed == NULL || c->made_at == NULL) { return false; }
     for (int i = 0; i < model->node_count; i++) {
-        c->point_nodes[i] = i;
+        list_point(c, i);
         c->fixed[i] = skip_fixed && model->bodies[model->node_body[i]].fixed;
     }
     for (int kind = 0; kind < CIPC_PRIMITIVE_KINDS; kind++) {
         if (!init_primitives(c, &c->primitives[kind], kind)) { return false; }
     }
+    c->filtered = any_apart(model);
     return make_parts(c);
 }
 
@@ -129,6 +188,8 @@ void invariant_candidates_free(invariant_candidates *c)
         cipc_free(c->parts[i].patches.places);
     }
     cipc_free(c->point_nodes);
+    cipc_free(c->loose_nodes);
+    cipc_free(c->particle_nodes);
     cipc_free(c->fixed);
     cipc_free(c->made_at);
     cipc_free(c->parts);
@@ -184,6 +245,8 @@ static void make_boxes(const invariant_candidates *c, int kind, const double *x,
 /* Do the primitives share a node? Lower edge first; without branches, for this is asked of every pair of boxes that overlap. */
 static bool is_incident(invariant_candidate_kind kind, const int *a, const int *b)
 {
+    if (kind == CIPC_CANDIDATE_POINT_POINT) { return false; }
+    if (kind == CIPC_CANDIDATE_POINT_EDGE) { return (a[0] == b[0]) | (a[0] == b[1]); }
     bool shared = (a[0] == b[0]) | (a[0] == b[1]);
     if (kind != CIPC_CANDIDATE_POINT_TRIANGLE) { shared |= (a[1] == b[0]) | (a[1] == b[1]); }
     if (kind != CIPC_CANDIDATE_EDGE_EDGE) { shared |= a[0] == b[2]; }
@@ -194,11 +257,15 @@ static bool is_incident(invariant_candidate_kind kind, const int *a, const int *
 static bool is_out_of_reach(const invariant_candidates *c, invariant_candidate_kind kind, const int *a, int na, const int *b, int nb,
                             const double *x)
 {
-    double stencil[15];
+    double stencil[15], enough = (invariant_candidates_offset(c->model, a[0], b[0]) + c->reach + c->margin) * ROUND_UP;
+    if (kind == CIPC_CANDIDATE_POINT_EDGE || kind == CIPC_CANDIDATE_POINT_POINT) {
+        const int nodes[4] = {a[0], b[0], nb > 1 ? b[1] : -1, -1};
+        (void)invariant_candidates_stencil(nb > 1 ? CIPC_POINT_EDGE : CIPC_POINT_POINT, x, nodes, stencil);
+        return cipc_separate_edge_edge(stencil, enough).lower > enough;
+    }
     cipc_gather(stencil, x, a, na);
     cipc_gather(&stencil[3 * na], x, b, nb);
     if (kind == CIPC_CANDIDATE_EDGE_TRIANGLE) { return cipc_edge_triangle_far(stencil, &stencil[6], c->margin); }
-    double enough = (invariant_candidates_offset(c->model, a[0], b[0]) + c->reach + c->margin) * ROUND_UP;
     cipc_separation s =
         kind == CIPC_CANDIDATE_POINT_TRIANGLE ? cipc_separate_point_triangle(stencil, enough) : cipc_separate_edge_edge(stencil, enough);
     return s.lower > enough;
@@ -223,13 +290,14 @@ static bool append_pair(invariant_candidate_part *part, int a, int b)
 static bool offer_pair(const invariant_candidates *c, invariant_candidate_part *part, int a, int b, const double *x)
 {
     const cipc_primitives *pa = first_side(c, part->kind), *pb = second_side(c, part->kind);
-    if (part->kind == CIPC_CANDIDATE_EDGE_EDGE && b < a) {
+    if ((part->kind == CIPC_CANDIDATE_EDGE_EDGE || part->kind == CIPC_CANDIDATE_POINT_POINT) && b < a) {
         int swap = a;
         a = b;
         b = swap;
     }
     const int *na = &pa->nodes[pa->size * a], *nb = &pb->nodes[pb->size * b];
     bool skip = is_incident(part->kind, na, nb);
+    skip = skip || (c->filtered && !cipc_model_meet(c->model, na, pa->size, nb, pb->size));
     skip = skip || (c->sweep_to == NULL && is_out_of_reach(c, part->kind, na, pa->size, nb, pb->size, x));
     return skip || append_pair(part, a, b);
 }

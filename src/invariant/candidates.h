@@ -18,12 +18,15 @@ typedef struct cipc_primitives {
     cipc_patch_tree tree;
 } cipc_primitives;
 
-enum { CIPC_POINTS = 0, CIPC_EDGES, CIPC_TRIANGLES, CIPC_PRIMITIVE_KINDS };
+/* Points: nodes that are not inside volumes. Loose points: those of rods and particles, which edge-edge pairs alone do not keep apart where a particle has no edge. */
+enum { CIPC_POINTS = 0, CIPC_EDGES, CIPC_TRIANGLES, CIPC_LOOSE_POINTS, CIPC_SEGMENTS, CIPC_PARTICLES, CIPC_PRIMITIVE_KINDS };
 
 typedef enum invariant_candidate_kind {
     CIPC_CANDIDATE_POINT_TRIANGLE = 0,
     CIPC_CANDIDATE_EDGE_EDGE,
     CIPC_CANDIDATE_EDGE_TRIANGLE,
+    CIPC_CANDIDATE_POINT_EDGE,  /* loose points and segments */
+    CIPC_CANDIDATE_POINT_POINT, /* particles */
     CIPC_CANDIDATE_KINDS
 } invariant_candidate_kind;
 
@@ -42,7 +45,8 @@ typedef struct invariant_candidates {
     const cipc_model *model;
     double reach, margin;
     int threads;
-    int *point_nodes; /* 0, 1, 2, ... */
+    int *point_nodes, *loose_nodes, *particle_nodes; /* the nodes that are points of each kind */
+    bool filtered; /* some pairs that share no node do not meet: bodies apart, or stitches */
     bool *fixed;      /* of a node: in a fixed body, and fixed pairs do not count */
     cipc_primitives primitives[CIPC_PRIMITIVE_KINDS];
     invariant_candidate_part *parts;
@@ -65,6 +69,13 @@ bool invariant_candidates_valid(const invariant_candidates *c, const double *x);
 /* Make lists of all point-triangle and edge-edge pairs that may come within xi + reach of one another while every node moves straight from its place in `from`
  * to that in `to` (both finite). They serve for this once. False: out of memory. */
 bool invariant_candidates_sweep(invariant_candidates *c, const double *from, const double *to);
+
+/* The pair of primitives that a candidate of point-triangle, edge-edge, point-edge or point-point stands for, and its nodes; unused ones -1. */
+cipc_pair_kind invariant_candidates_nodes(const invariant_candidates *c, invariant_candidate_kind kind, const int pair[2], int nodes[4]);
+/* Positions of such a pair for a certified separation: as it is, or with a point as an edge of no length. True: edge-edge. */
+bool invariant_candidates_stencil(cipc_pair_kind kind, const double *x, const int nodes[4], double stencil[12]);
+/* Before and after in the order in which pairs are reported: by kind, then by nodes. */
+int invariant_candidates_compare(cipc_pair_kind kind_a, const int nodes_a[4], cipc_pair_kind kind_b, const int nodes_b[4]);
 
 /* Contact thickness of the pair of these nodes' bodies (SPEC C.4, eq. 11), m. */
 double invariant_candidates_offset(const cipc_model *model, int node_a, int node_b);

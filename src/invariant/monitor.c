@@ -2,6 +2,7 @@
 #include "cipc/invariant.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "invariant/monitor.h"
 
@@ -23,6 +24,24 @@ void cipc_invariant_report_init(cipc_invariant_report *report)
 int cipc_monitor_sections(int count)
 {
     return (count + CIPC_MONITOR_SECTION - 1) / CIPC_MONITOR_SECTION;
+}
+
+void cipc_monitor_pair_text(const cipc_model *m, cipc_pair_kind kind, const int n[4], char text[CIPC_PAIR_TEXT_SIZE])
+{
+    const char *a = cipc_monitor_body(m, n[0]), *b = cipc_monitor_body(m, n[cipc_pair_nodes(kind) - 1]);
+    switch (kind) {
+    case CIPC_EDGE_EDGE:
+        snprintf(text, CIPC_PAIR_TEXT_SIZE, "edge (nodes %d %d, body \"%s\") and edge (nodes %d %d, body \"%s\")", n[0], n[1], a, n[2], n[3], b);
+        break;
+    case CIPC_POINT_TRIANGLE:
+        snprintf(text, CIPC_PAIR_TEXT_SIZE, "node %d (body \"%s\") and triangle (nodes %d %d %d, body \"%s\")", n[0], a, n[1], n[2], n[3], b);
+        break;
+    case CIPC_POINT_EDGE:
+        snprintf(text, CIPC_PAIR_TEXT_SIZE, "node %d (body \"%s\") and segment (nodes %d %d, body \"%s\")", n[0], a, n[1], n[2], b);
+        break;
+    default:
+        snprintf(text, CIPC_PAIR_TEXT_SIZE, "node %d (body \"%s\") and node %d (body \"%s\")", n[0], a, n[1], b);
+    }
 }
 
 const char *cipc_monitor_body(const cipc_model *model, int node)

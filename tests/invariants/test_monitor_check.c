@@ -47,7 +47,7 @@ static void compare_with_plain(const hand_model *h, cipc_monitor *monitor, const
 /* Everything in the report but lists_made. */
 static void assert_same_report(const cipc_invariant_report *a, const cipc_invariant_report *b)
 {
-    assert_true(a->min_gap == b->min_gap && a->min_gap_is_edge_edge == b->min_gap_is_edge_edge);
+    assert_true(a->min_gap == b->min_gap && a->min_gap_kind == b->min_gap_kind);
     assert_memory_equal(a->min_gap_nodes, b->min_gap_nodes, sizeof a->min_gap_nodes);
     assert_true(a->max_stretch == b->max_stretch && a->max_stretch_ratio == b->max_stretch_ratio);
     assert_int_equal(a->max_stretch_triangle, b->max_stretch_triangle);

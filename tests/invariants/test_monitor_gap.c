@@ -234,7 +234,7 @@ static void test_filter_settles_ordinary_pairs(void **state)
     monitor_trial t = look(h);
     assert_int_equal(t.status, CIPC_OK);
     assert_true(t.report.pairs_checked == 1 && t.report.exact_gap_checks == 0);
-    assert_true(t.report.min_gap == 0.2505 - 0.25 && t.report.min_gap_is_edge_edge == 0);
+    assert_true(t.report.min_gap == 0.2505 - 0.25 && t.report.min_gap_kind == CIPC_POINT_TRIANGLE);
     for (int i = 0; i < 4; i++) { assert_int_equal(t.report.min_gap_nodes[i], i); }
     h->x[2] = 0.26; /* beyond reach */
     t = look(h);
@@ -259,7 +259,7 @@ static void test_message(void **state)
     t = look(h);
     assert_non_null(strstr(t.error.what, "nodes 0 1, body \"first\""));
     assert_non_null(strstr(t.error.what, "nodes 2 3, body \"second\""));
-    assert_true(t.report.min_gap == -0.125 && t.report.min_gap_is_edge_edge == 1);
+    assert_true(t.report.min_gap == -0.125 && t.report.min_gap_kind == CIPC_EDGE_EDGE);
     hand_model_destroy(h);
 }
 
