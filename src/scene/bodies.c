@@ -5,10 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/body_kind.h"
+#include "scene/material.h"
 #include "scene/mesh.h"
 #include "scene/nearest_name.h"
-#include "scene/shell.h"
-#include "scene/shell_material.h"
+#include "scene/rest_mesh.h"
 #include "scene/transform.h"
 
 enum { BODIES_MAX = 10000 };
@@ -69,32 +70,42 @@ static bool allocate_nodes(scene_body *body)
     return body->rest != NULL && body->position != NULL && body->velocity != NULL;
 }
 
+static void place(scene_reader *r, const scene_cursor *cursor, const scene_transform *transform, const double velocity[3],
+                  const double *rest_nodes, scene_body *body)
+{
+    const cipc_mesh *mesh = &body->mesh;
+    if (!allocate_nodes(body)) {
+        scene_reject_memory(r, cursor);
+        return;
+    }
+    scene_place_nodes(transform, mesh->nodes, mesh->node_count, body->position);
+    scene_rest_nodes(transform, rest_nodes != NULL ? rest_nodes : mesh->nodes, mesh->node_count, body->rest);
+    for (int i = 0; i < 3 * mesh->node_count; i++) body->velocity[i] = velocity[i % 3];
+}
+
 /* Mesh, placement and uniform start velocity. */
 static void read_shape(scene_reader *r, const scene_cursor *cursor, unsigned long seed, scene_body *body)
 {
     static const double zero[3] = {0, 0, 0};
     scene_transform transform;
     double velocity[3];
-    scene_cursor shell = scene_member(cursor, "shell");
-    if (shell.value == NULL) scene_reject(r, &shell, CIPC_E_MISSING_KEY, "required, but missing: a grid, irregular, icosphere or mesh");
-    scene_read_shell(r, &shell, seed, &body->mesh);
+    cipc_body_kind kind = body->description.kind;
+    scene_read_kind_mesh(r, cursor, kind, seed, &body->mesh);
     scene_read_transform(r, cursor, &transform);
     scene_vector(r, cursor, "velocity", zero, velocity);
-    if (r->status != CIPC_OK) return;
-    if (!allocate_nodes(body)) {
-        scene_reject_memory(r, cursor);
-        return;
-    }
-    scene_transform_nodes(&transform, body->mesh.nodes, body->mesh.node_count, body->rest, body->position);
-    for (int i = 0; i < 3 * body->mesh.node_count; i++) body->velocity[i] = velocity[i % 3];
+    double *rest_nodes = scene_read_rest_mesh(r, cursor, scene_kind_mesh(kind), &body->mesh);
+    if (r->status == CIPC_OK) place(r, cursor, &transform, velocity, rest_nodes, body);
+    cipc_free(rest_nodes);
 }
 
 static void read_body(scene_reader *r, const scene_cursor *cursor, unsigned long seed, const scene_material_defaults *defaults,
                       scene_body *body)
 {
     cipc_body_description *d = &body->description;
+    d->kind = scene_read_kind(r, cursor);
     d->fixed = scene_boolean(r, cursor, "fixed", false);
-    scene_read_material(r, cursor, defaults, &d->material);
+    if (r->status != CIPC_OK) return;
+    scene_read_material(r, cursor, d->kind, defaults, &d->material);
     d->offset = scene_number(r, cursor, "offset", 0, scene_not_negative);
     d->friction = scene_number(r, cursor, "friction", 0, scene_not_negative);
     read_shape(r, cursor, seed, body);
@@ -104,6 +115,10 @@ static void read_body(scene_reader *r, const scene_cursor *cursor, unsigned long
     d->velocity = body->velocity;
     d->triangle_count = body->mesh.triangle_count;
     d->triangles = (const int(*)[3])body->mesh.triangles;
+    d->segment_count = body->mesh.segment_count;
+    d->segments = (const int(*)[2])body->mesh.segments;
+    d->tetrahedron_count = body->mesh.tetrahedron_count;
+    d->tetrahedra = (const int(*)[4])body->mesh.tetrahedra;
 }
 
 static bool is_fixed(const scene_cursor *body)
@@ -111,7 +126,8 @@ static bool is_fixed(const scene_cursor *body)
     return json_is_true(json_object_get(body->value, "fixed"));
 }
 
-/* All free bodies, or all fixed ones. The material of the first free one is what "released" gives to obstacles. */
+/* All free bodies, or all fixed ones. The material of the first free one is what "released" gives to obstacles (a volume has no thickness to
+ * give). */
 static void read_those(scene_reader *r, const scene_cursor *list, bool fixed, unsigned long seed, scene_material_defaults *defaults,
                        scene_bodies *bodies)
 {
@@ -125,7 +141,7 @@ static void read_those(scene_reader *r, const scene_cursor *list, bool fixed, un
         bodies->descriptions[b] = body->description;
         if (!fixed && defaults->released && first) {
             defaults->density = body->description.material.density;
-            defaults->thickness = body->description.material.thickness;
+            if (body->description.kind != CIPC_BODY_VOLUME) defaults->thickness = body->description.material.thickness;
         }
         first = false;
     }
@@ -141,9 +157,6 @@ static void check_total(scene_reader *r, const scene_cursor *list, const scene_b
 
 void scene_read_bodies(scene_reader *r, const scene_cursor *root, unsigned long seed, bool released, scene_bodies *bodies)
 {
-    static const char *const keys[] = {
-        "name",         "shell",  "material", "membrane_factor", "bending_factor", "density", "thickness", "membrane", "bending",
-        "strain_limit", "offset", "friction", "fixed",           "transform",      "rest",    "velocity",  NULL};
     *bodies = (scene_bodies){0};
     scene_cursor list = scene_member(root, "bodies");
     if (!scene_is_array(r, &list, 1, BODIES_MAX)) return;
@@ -157,7 +170,7 @@ void scene_read_bodies(scene_reader *r, const scene_cursor *root, unsigned long 
     bodies->count = (int)count;
     for (int b = 0; b < bodies->count; b++) {
         scene_cursor body = scene_element(&list, (size_t)b);
-        if (scene_is_object(r, &body, keys)) read_name(r, &body, bodies, b);
+        if (scene_is_body(r, &body)) read_name(r, &body, bodies, b);
     }
     scene_material_defaults defaults = {.density = obstacle_density, .thickness = obstacle_thickness, .released = released};
     read_those(r, &list, false, seed, &defaults, bodies);

@@ -81,6 +81,11 @@ cipc_status scene_reject_memory(scene_reader *reader, const scene_cursor *cursor
     return scene_reject(reader, cursor, CIPC_E_OUT_OF_MEMORY, "no memory for this part of the scene");
 }
 
+cipc_status scene_adopt(scene_reader *reader, const scene_cursor *cursor, cipc_status status, const cipc_error *error)
+{
+    return status == CIPC_OK ? reader->status : scene_reject(reader, cursor, status, "%s", error->what);
+}
+
 static const char *type_name(const json_t *value)
 {
     switch (json_typeof(value)) {

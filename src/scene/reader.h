@@ -42,6 +42,8 @@ cipc_status
 scene_reject(scene_reader *reader, const scene_cursor *cursor, cipc_status status, const char *format, ...);
 /* The same for a lack of memory. */
 cipc_status scene_reject_memory(scene_reader *reader, const scene_cursor *cursor);
+/* What a function below the reader complains of (its place means nothing to the scene's author), said at the cursor. OK: nothing. */
+cipc_status scene_adopt(scene_reader *reader, const scene_cursor *cursor, cipc_status status, const cipc_error *error);
 
 /* Allowed numbers. Infinite bounds are never reached: JSON has no infinities. */
 typedef struct scene_range {

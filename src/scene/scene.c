@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "scene/bodies.h"
+#include "scene/body_kind.h"
 #include "scene/constraints.h"
 #include "scene/json_text.h"
 #include "scene/overrides.h"
@@ -27,14 +28,14 @@ static cipc_status parse(scene_reader *r)
     return r->status;
 }
 
-/* What the model finds wrong with a body is said at the body's shell. */
+/* What the model finds wrong with a body is said at the body's mesh. */
 static void reject_model(scene_reader *r, const scene_cursor *root, const scene_bodies *bodies, cipc_status status, const cipc_error *error)
 {
     scene_cursor list = scene_member(root, "bodies");
     for (int b = 0; b < bodies->count; b++) {
         if (strcmp(bodies->descriptions[b].name, error->place) != 0) continue;
-        scene_cursor body = scene_element(&list, (size_t)b), shell = scene_member(&body, "shell");
-        scene_reject(r, &shell, status, "%s", error->what);
+        scene_cursor body = scene_element(&list, (size_t)b), mesh = scene_member(&body, scene_kind_key(bodies->descriptions[b].kind));
+        scene_reject(r, &mesh, status, "%s", error->what);
     }
     scene_reject(r, &list, status, "%s: %s", error->place, error->what);
 }

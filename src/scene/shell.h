@@ -1,4 +1,4 @@
-/* The mesh of a body: generated or read. */
+/* The triangles of a shell: generated or read. */
 #ifndef SCENE_SHELL_H
 #define SCENE_SHELL_H
 

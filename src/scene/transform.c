@@ -7,14 +7,13 @@
 #include "base/vector.h"
 
 /* A number for all three axes, or one for each. */
-static void read_scale(scene_reader *r, const scene_cursor *object, double scale[3])
+static void read_scale(scene_reader *r, const scene_cursor *object, const double fallback[3], double scale[3])
 {
-    static const double one[3] = {1, 1, 1};
     scene_cursor member = scene_member(object, "scale");
     if (json_is_number(member.value)) {
         scale[0] = scale[1] = scale[2] = scene_number_at(r, &member, scene_positive);
     } else if (member.value == NULL) {
-        scene_vector(r, object, "scale", one, scale);
+        scene_vector(r, object, "scale", fallback, scale);
     } else {
         scene_vector_at(r, &member, scene_positive, scale);
     }
@@ -55,30 +54,38 @@ static void read_rotations(scene_reader *r, const scene_cursor *transform, scene
     }
 }
 
-/* "initial": the mesh after its scale; {"scale": ...}: the mesh after that scale, so that the body starts stretched. */
+/* "initial": the mesh after its scale; {"scale": ...}: the mesh after that scale, so that the body starts stretched. A rest mesh is in the
+ * units of the mesh itself unless it has a scale of its own. */
 static void read_rest(scene_reader *r, const scene_cursor *body, scene_transform *t)
 {
-    static const char *const keys[] = {"scale", NULL};
+    static const char *const keys[] = {"scale", "mesh", NULL};
     static const char *const kinds[] = {"initial", NULL};
-    scene_cursor rest = scene_member(body, "rest");
+    static const double one[3] = {1, 1, 1};
+    scene_cursor rest = scene_member(body, "rest"), mesh = scene_member(&rest, "mesh");
     if (json_is_object(rest.value)) {
-        if (scene_is_object(r, &rest, keys)) read_scale(r, &rest, t->rest_scale);
+        if (scene_is_object(r, &rest, keys)) read_scale(r, &rest, mesh.value != NULL ? t->scale : one, t->rest_scale);
         return;
     }
     scene_choice(r, body, "rest", "rest shape", kinds, 0);
     memcpy(t->rest_scale, t->scale, sizeof t->scale);
 }
 
+void scene_read_placement(scene_reader *r, const scene_cursor *object, scene_transform *t)
+{
+    static const double zero[3] = {0, 0, 0}, one[3] = {1, 1, 1};
+    *t = (scene_transform){.scale = {1, 1, 1}, .rest_scale = {1, 1, 1}};
+    read_scale(r, object, one, t->scale);
+    read_rotations(r, object, t);
+    scene_vector(r, object, "translate", zero, t->translate);
+}
+
 void scene_read_transform(scene_reader *r, const scene_cursor *body, scene_transform *t)
 {
     static const char *const keys[] = {"scale", "rotate", "translate", NULL};
-    static const double zero[3] = {0, 0, 0};
     *t = (scene_transform){.scale = {1, 1, 1}, .rest_scale = {1, 1, 1}};
     scene_cursor transform = scene_object_member(r, body, "transform");
     if (!scene_is_object(r, &transform, keys)) return;
-    read_scale(r, &transform, t->scale);
-    read_rotations(r, &transform, t);
-    scene_vector(r, &transform, "translate", zero, t->translate);
+    scene_read_placement(r, &transform, t);
     read_rest(r, body, t);
 }
 
@@ -90,16 +97,17 @@ static void rotate_point(double x[3], const double axis[3], double angle)
     for (int k = 0; k < 3; k++) x[k] = x[k] * cosine + across[k] * sine + axis[k] * along;
 }
 
-void scene_transform_nodes(const scene_transform *t, const double *nodes, int count, double *rest, double *position)
+void scene_place_nodes(const scene_transform *t, const double *nodes, int count, double *position)
 {
     for (int i = 0; i < count; i++) {
-        const double *x = nodes + 3 * i;
         double *y = position + 3 * i;
-        for (int k = 0; k < 3; k++) {
-            rest[3 * i + k] = t->rest_scale[k] * x[k];
-            y[k] = t->scale[k] * x[k];
-        }
+        for (int k = 0; k < 3; k++) y[k] = t->scale[k] * nodes[3 * i + k];
         for (int n = 0; n < t->rotation_count; n++) rotate_point(y, t->rotations[n].axis, t->rotations[n].angle);
         v3_add(y, y, t->translate);
     }
+}
+
+void scene_rest_nodes(const scene_transform *t, const double *nodes, int count, double *rest)
+{
+    for (int i = 0; i < 3 * count; i++) rest[i] = t->rest_scale[i % 3] * nodes[i];
 }

@@ -37,6 +37,34 @@ static void test_bodies_keep_their_order_and_get_what_they_say(void **state)
     scene_reader_free(&r);
 }
 
+/* One of each kind; the model takes them. */
+static void test_bodies_of_every_kind(void **state)
+{
+    (void)state;
+    cipc_scene *s = accept_scene(
+        "{\"time_step\": 1, \"steps\": 1, \"bodies\": ["
+        "{\"name\": \"rod\", \"rods\": {\"line\": {\"points\": [[0, 0, 0], [1, 0, 0]], \"segments\": 4}}, \"density\": 1300, \"diameter\": 8e-5, "
+        "\"young\": 4e8, \"bending_factor\": 0.01, \"damping\": {\"stiffness\": 0.1, \"mass\": 0.2}},"
+        "{\"name\": \"sand\", \"particles\": {\"points\": [[0, 1, 0], [0, 2, 0]]}, \"density\": 1600, \"diameter\": 2e-3},"
+        "{\"name\": \"ball\", \"volume\": {\"box\": {\"size\": [1, 1, 1], \"cells\": [1, 1, 1]}}, \"density\": 1000, \"young\": 1e4, "
+        "\"poisson\": 0.4, \"transform\": {\"translate\": [0, 5, 0]}},"
+        "{\"name\": \"needle\", \"fixed\": true, \"rods\": {\"line\": {\"points\": [[0, 3, 0], [1, 3, 0]], \"segments\": 1}}},"
+        "{\"name\": \"stone\", \"fixed\": true, \"volume\": {\"box\": {\"size\": [1, 1, 1], \"cells\": [1, 1, 1]}}}]}",
+        NULL);
+    const cipc_body *b = s->model->bodies;
+    assert_int_equal(b[0].kind, CIPC_BODY_RODS);
+    assert_int_equal(b[0].segment_count, 4);
+    assert_true(b[0].material.thickness == 8e-5 && b[0].material.young == 4e8 && b[0].material.bending_young == 0.01 * 4e8);
+    assert_true(b[0].material.damping_stiffness == 0.1 && b[0].material.damping_mass == 0.2 && b[1].material.damping_mass == 0);
+    assert_int_equal(b[1].kind, CIPC_BODY_PARTICLES);
+    assert_true(b[1].node_count == 2 && b[1].material.thickness == 2e-3);
+    assert_int_equal(b[2].kind, CIPC_BODY_VOLUME);
+    assert_true(b[2].tetrahedron_count > 0 && b[2].material.young == 1e4 && b[2].material.poisson == 0.4);
+    assert_true(b[3].fixed && b[3].segment_count == 1 && b[3].material.density == 1000);
+    assert_true(b[4].fixed && b[4].tetrahedron_count > 0 && b[4].material.young == 0);
+    cipc_scene_destroy(s);
+}
+
 /* "released": obstacles without a material weigh what the first free body weighs, wherever it stands in the list. */
 static void test_released_obstacles(void **state)
 {
@@ -49,6 +77,22 @@ static void test_released_obstacles(void **state)
     scene_read_bodies(&r, &root, 1, true, &bodies);
     assert_int_equal(r.status, CIPC_OK);
     assert_true(bodies.descriptions[0].material.density == 413.380282 && bodies.descriptions[0].material.thickness == 0.568e-3);
+    scene_bodies_free(&bodies);
+    scene_reader_free(&r);
+}
+
+/* A volume has a density to give, but no thickness. */
+static void test_released_obstacles_beside_volumes(void **state)
+{
+    (void)state;
+    scene_reader r = reader_of("{\"bodies\": [{\"name\": \"ground\", \"fixed\": true, " SHELL
+                               "}, {\"name\": \"ball\", \"density\": 7, \"young\": 1, \"poisson\": 0, \"volume\": {\"box\": "
+                               "{\"size\": [1, 1, 1], \"cells\": [1, 1, 1]}}}]}");
+    scene_cursor root = scene_root(r.root);
+    scene_bodies bodies;
+    scene_read_bodies(&r, &root, 1, true, &bodies);
+    assert_int_equal(r.status, CIPC_OK);
+    assert_true(bodies.descriptions[0].material.density == 7 && bodies.descriptions[0].material.thickness == 1e-3);
     scene_bodies_free(&bodies);
     scene_reader_free(&r);
 }
@@ -101,7 +145,7 @@ static void test_rejections(void **state)
     reject_scene("{\"time_step\": 1, \"steps\": 1, @\"bodies\": []}", NULL, CIPC_E_OUT_OF_RANGE, "bodies", "at least 1");
     reject_scene("{\"time_step\": 1, \"steps\": 1, \"bodies\": [@3]}", NULL, CIPC_E_WRONG_TYPE, "bodies.0", "an object");
     reject_scene("{\"time_step\": 1, \"steps\": 1, \"bodies\": [@{\"name\": \"a\", \"material\": \"wool\"}]}", NULL, CIPC_E_MISSING_KEY,
-                 "bodies.a.shell", "missing");
+                 "bodies.a", "needs one of shell, rods, particles, volume");
     reject_around("", "@\"thicknes\": 1,", CIPC_E_UNKNOWN_KEY, "bodies.cloth.thicknes", "'thickness'");
     reject_around("", "@\"offset\": -1e-9,", CIPC_E_OUT_OF_RANGE, "bodies.cloth.offset", "at least 0");
     reject_around("", "@\"friction\": -1,", CIPC_E_OUT_OF_RANGE, "bodies.cloth.friction", "at least 0");
@@ -114,7 +158,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_bodies_keep_their_order_and_get_what_they_say),
+        cmocka_unit_test(test_bodies_of_every_kind),
         cmocka_unit_test(test_released_obstacles),
+        cmocka_unit_test(test_released_obstacles_beside_volumes),
         cmocka_unit_test(test_finding_by_name),
         cmocka_unit_test(test_names),
         cmocka_unit_test(test_rejections),

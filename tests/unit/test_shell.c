@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "scene/shell.h"
+#include "support/mesh_trial.h"
 #include "support/scene_trial.h"
 
 static void assert_shell(const char *text, int nodes, int triangles)
@@ -43,6 +44,27 @@ static void test_generators(void **state)
     assert_shell("{\"grid\": {\"size\": [1, 2], \"cells\": [2, 2], \"alternate\": true}}", 9, 8);
     assert_shell("{\"irregular\": {\"size\": [1, 1], \"nodes\": 5}}", 5, 4);
     assert_shell("{\"icosphere\": {\"radius\": 1, \"subdivisions\": 1}}", 42, 80);
+}
+
+static cipc_mesh read_mesh(const char *text)
+{
+    cipc_mesh mesh;
+    scene_reader r = reader_of(text);
+    scene_cursor root = scene_root(r.root);
+    scene_read_shell(&r, &root, 1, &mesh);
+    if (r.status != CIPC_OK) fail_msg("%s: %s", r.error.place, r.error.what);
+    scene_reader_free(&r);
+    return mesh;
+}
+
+static void test_round_shells(void **state)
+{
+    (void)state;
+    static const double profile[3][2] = {{0.2, 0}, {0.3, 0.5}, {0.1, 1}};
+    cipc_mesh want, got = read_mesh("{\"revolution\": {\"profile\": [[0.2, 0], [0.3, 0.5], [0.1, 1]], \"sectors\": 12}}");
+    assert_same_mesh(&got, &want, cipc_mesh_revolution(&want, 3, profile, 12, NULL));
+    got = read_mesh("{\"cylinder\": {\"radius\": 0.25, \"length\": 1, \"around\": 8, \"along\": 5}}");
+    assert_same_mesh(&got, &want, cipc_mesh_cylinder(&want, 0.25, 1, 8, 5, NULL));
 }
 
 /* Without a seed of its own a sheet takes the scene's, and the tree says so. */
@@ -82,6 +104,14 @@ static void test_rejections(void **state)
     assert_refused("{\"icosphere\": {\"radius\": -1, \"subdivisions\": 1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:16 icosphere.radius",
                    "greater than 0");
     assert_refused("{\"icosphere\": {\"radius\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 icosphere.subdivisions", "missing");
+    assert_refused("{\"revolution\": {\"profile\": [[1, 0]], \"sectors\": 3}}", CIPC_E_OUT_OF_RANGE, "t.json:1:17 revolution.profile", "at least 2");
+    assert_refused("{\"revolution\": {\"profile\": [[1, 0], [1, 1, 0]], \"sectors\": 3}}", CIPC_E_OUT_OF_RANGE, "t.json:1:37 revolution.profile.1",
+                   "must have 2");
+    assert_refused("{\"revolution\": {\"profile\": [[1, 0], [1, 1]], \"sectors\": 2}}", CIPC_E_OUT_OF_RANGE, "t.json:1:46 revolution.sectors",
+                   "at least 3");
+    assert_refused("{\"cylinder\": {\"radius\": 1, \"length\": 1, \"around\": 2, \"along\": 1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:41 cylinder.around",
+                   "at least 3");
+    assert_refused("{\"cylinder\": {\"radius\": 1, \"around\": 3, \"along\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 cylinder.length", "missing");
     assert_refused("{\"mesh\": 1}", CIPC_E_WRONG_TYPE, "t.json:1:2 mesh", "a string");
     assert_refused("{\"mesh\": \"/nowhere/at/all.obj\"}", CIPC_E_MISSING_FILE, "t.json:1:2 mesh", "'/nowhere/at/all.obj' cannot be opened");
     assert_refused("[]", CIPC_E_WRONG_TYPE, "t.json:1:1", "an object");
@@ -124,6 +154,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_generators),
+        cmocka_unit_test(test_round_shells),
         cmocka_unit_test(test_the_seed_of_the_scene),
         cmocka_unit_test(test_rejections),
         cmocka_unit_test(test_files),

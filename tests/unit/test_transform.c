@@ -28,7 +28,8 @@ static scene_transform read_body(const char *text)
 static void assert_point(const scene_transform *t, double x, double y, double z, const double want[3], const double want_rest[3])
 {
     double node[3] = {x, y, z}, rest[3], position[3];
-    scene_transform_nodes(t, node, 1, rest, position);
+    scene_place_nodes(t, node, 1, position);
+    scene_rest_nodes(t, node, 1, rest);
     for (int k = 0; k < 3; k++) {
         assert_true(fabs(position[k] - want[k]) < tolerance);
         assert_true(rest[k] == want_rest[k]);
@@ -40,7 +41,8 @@ static void test_nothing_said_changes_nothing(void **state)
     (void)state;
     scene_transform t = read_body("{}");
     double nodes[6] = {0.1, -0.2, 1e-300, 3, 4, 5}, rest[6], position[6];
-    scene_transform_nodes(&t, nodes, 2, rest, position);
+    scene_place_nodes(&t, nodes, 2, position);
+    scene_rest_nodes(&t, nodes, 2, rest);
     assert_memory_equal(rest, nodes, sizeof nodes);
     assert_memory_equal(position, nodes, sizeof nodes);
 }
