@@ -15,7 +15,8 @@ typedef struct obj_reader {
     const char *path;
     int line;
     cipc_mesh *mesh; /* NULL while counting */
-    long long nodes, triangles;
+    cipc_mesh_kind kind;
+    long long nodes, triangles; /* triangles: elements of the kind */
     cipc_error *error;
 } obj_reader;
 
@@ -97,6 +98,25 @@ static cipc_status add_triangle(obj_reader *r, int a, int b, int c)
     return CIPC_OK;
 }
 
+/* A line a b c ... becomes the segments (a b), (b c), ... */
+static cipc_status read_polyline(obj_reader *r, const char *at)
+{
+    int previous = 0, corner = 0, count = 0;
+    for (at = skip_blanks(at); *at != '\0'; at = skip_blanks(at + word_length(at)), count++) {
+        cipc_status status = read_corner(r, at, &corner);
+        if (status != CIPC_OK) return status;
+        if (count > 0 && r->mesh != NULL) {
+            if (previous == corner) return reject(r, "a line that names a vertex twice in a row");
+            int *segment = r->mesh->segments[r->triangles];
+            segment[0] = previous;
+            segment[1] = corner;
+        }
+        r->triangles += count > 0;
+        previous = corner;
+    }
+    return count >= 2 ? CIPC_OK : reject(r, "a line of %d vertices; 2 are needed", count);
+}
+
 /* A polygon a b c d ... becomes the fan (a b c), (a c d), ... */
 static cipc_status read_face(obj_reader *r, const char *at)
 {
@@ -127,7 +147,10 @@ static cipc_status read_line(obj_reader *r, const char *line)
     int length = word_length(word);
     if (length == 0 || *word == '#') return CIPC_OK;
     if (length == 1 && *word == 'v') return read_vertex(r, word + 1);
-    if (length == 1 && *word == 'f') return read_face(r, word + 1);
+    if (length == 1 && *word == 'f') return r->kind == CIPC_MESH_TRIANGLES ? read_face(r, word + 1) : CIPC_OK;
+    /* The released code's .seg files say s where OBJ says l. */
+    if (length == 1 && (*word == 'l' || (*word == 's' && r->kind == CIPC_MESH_SEGMENTS))) return r->kind == CIPC_MESH_SEGMENTS ? read_polyline(r, word + 1) : CIPC_OK;
+    if (length == 1 && *word == 'p') return CIPC_OK;
     if (is_ignored(word, length)) return CIPC_OK;
     return reject(r, "unknown statement '%.*s'", length < 40 ? length : 40, word);
 }
@@ -155,20 +178,21 @@ static cipc_status read_text(obj_reader *r, cipc_mesh *mesh, char *text, size_t 
     if (strlen(text) != length) return cipc_fail(r->error, CIPC_E_BAD_MESH, r->path, "not a text file: it has a zero byte");
     cipc_status status = read_lines(r, text);
     if (status != CIPC_OK) return status;
-    if (r->nodes == 0 || r->triangles == 0) {
-        return cipc_fail(r->error, CIPC_E_BAD_MESH, r->path, "an empty mesh: %lld vertices and %lld triangles", r->nodes, r->triangles);
+    if (r->nodes == 0 || (r->triangles == 0 && r->kind != CIPC_MESH_NODES)) {
+        const char *elements = r->kind == CIPC_MESH_SEGMENTS ? "lines" : "triangles";
+        return cipc_fail(r->error, CIPC_E_BAD_MESH, r->path, "an empty mesh: %lld vertices and %lld %s", r->nodes, r->triangles, elements);
     }
-    status = scene_mesh_allocate(mesh, r->nodes, r->triangles, r->path, r->error);
+    status = scene_mesh_allocate_kind(mesh, r->kind, r->nodes, r->triangles, r->path, r->error);
     if (status != CIPC_OK) return status;
     r->mesh = mesh;
     return read_lines(r, text);
 }
 
-cipc_status cipc_mesh_read_obj(cipc_mesh *mesh, const char *path, cipc_error *error)
+cipc_status scene_mesh_read_obj(cipc_mesh *mesh, const char *path, cipc_mesh_kind kind, cipc_error *error)
 {
     *mesh = (cipc_mesh){0};
     cipc_error own;
-    obj_reader r = {.path = path, .error = error != NULL ? error : &own};
+    obj_reader r = {.path = path, .kind = kind, .error = error != NULL ? error : &own};
     char *text = NULL;
     size_t length = 0;
     cipc_status status = scene_read_text(path, &text, &length, r.error);
@@ -177,3 +201,5 @@ cipc_status cipc_mesh_read_obj(cipc_mesh *mesh, const char *path, cipc_error *er
     cipc_free(text);
     return status;
 }
+
+cipc_status cipc_mesh_read_obj(cipc_mesh *mesh, const char *path, cipc_error *error) { return scene_mesh_read_obj(mesh, path, CIPC_MESH_TRIANGLES, error); }
