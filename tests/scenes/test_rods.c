@@ -1,0 +1,197 @@
+/* Rods against closed forms (SPEC E8, E9, E12): the cantilever under its own weight at small and at large deflection, the ring, the catenary; each with its order of convergence. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_odeiv2.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+#include "support/sheet_scene.h"
+#include "support/validation.h"
+
+static const double pi = 3.14159265358979323846, young = 1e7, diameter = 5e-3;
+
+static double rigidity(void) { return young * pi * diameter * diameter * diameter * diameter / 64; }
+static double section(void) { return pi * diameter * diameter / 4; }
+
+/* A rod through n + 1 points, with or without bending; nothing is held yet. */
+static void make(sheet_scene *scene, int n, const double *x, bool bends, double density)
+{
+    int(*segments)[2] = malloc((size_t)n * sizeof *segments);
+    assert_non_null(segments);
+    for (int i = 0; i < n; i++) {
+        segments[i][0] = i;
+        segments[i][1] = i + 1;
+    }
+    sheet_scene_init(scene);
+    const cipc_body_description body = {.name = "rod", .kind = CIPC_BODY_RODS, .node_count = n + 1, .rest = x, .position = x, .segment_count = n, .segments = (const int(*)[2])segments,
+                                        .material = {.density = density, .thickness = diameter, .young = young, .bending_young = bends ? young : 0}};
+    sheet_add(scene, &body);
+    free(segments);
+    scene->options.quasistatic = true;
+    scene->options.newton_tolerance = 1e-7;
+    scene->options.newton_iterations = 5000;
+}
+
+/* Deflection of the tip, over the length 1, of a cantilever whose weight is gamma EI/L^3. The clamp is the middle of the first segment, whose two nodes are held: the first joint
+ * then stands for the curvature of the first full segment's length, as all others do. */
+static double cantilever(int n, double gamma)
+{
+    sheet_scene scene;
+    double h = 1 / (n - 0.5), *x = calloc(3 * (size_t)(n + 1), sizeof *x);
+    const int held[2] = {0, 1};
+    assert_non_null(x);
+    for (int i = 0; i <= n; i++) x[3 * i] = (i - 0.5) * h;
+    make(&scene, n, x, true, 1000);
+    scene.gravity[1] = -gamma * rigidity() / (1000 * section());
+    sheet_scene_model(&scene);
+    sheet_hold(&scene, held, 2, NULL, INFINITY);
+    sheet_scene_stepper(&scene);
+    sheet_step(&scene);
+    double tip = -scene.state->position[3 * n + 1];
+    sheet_scene_free(&scene);
+    free(x);
+    return tip;
+}
+
+/* theta(s), downwards, theta'(s) and depth(s) of the heavy elastica of length 1: EI theta'' = -w (1 - s) cos theta. */
+static int elastica(double s, const double y[], double f[], void *gamma)
+{
+    f[0] = y[1];
+    f[1] = -*(double *)gamma * (1 - s) * cos(y[0]);
+    f[2] = sin(y[0]);
+    return GSL_SUCCESS;
+}
+
+/* Bending moment left at the tip if the clamp's curvature is c; and how deep the tip is. */
+static double shoot(double c, double gamma, double *depth)
+{
+    gsl_odeiv2_system system = {elastica, NULL, 3, &gamma};
+    gsl_odeiv2_driver *driver = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd, 1e-4, 1e-13, 1e-13);
+    double y[3] = {0, c, 0}, s = 0;
+    assert_non_null(driver);
+    assert_int_equal(gsl_odeiv2_driver_apply(driver, &s, 1, y), GSL_SUCCESS);
+    gsl_odeiv2_driver_free(driver);
+    *depth = y[2];
+    return y[1];
+}
+
+/* By bisection on the clamp's curvature. */
+static double elastica_tip(double gamma)
+{
+    double low = 0, high = gamma / 2 + 1, depth = 0;
+    for (int k = 0; k < 60; k++) {
+        double middle = 0.5 * (low + high);
+        if (shoot(middle, gamma, &depth) > 0) high = middle;
+        else low = middle;
+    }
+    return depth;
+}
+
+/* Errors at n, 2n, 4n: the last is reported, the ratio of the last two tells the order. */
+static void assert_second_order(const char *name, double (*measure)(int, double), double load, double expected, double tolerance)
+{
+    double error[3], measured = 0;
+    for (int k = 0; k < 3; k++) {
+        measured = measure(8 << k, load);
+        error[k] = fabs(measured - expected);
+    }
+    double order = log2(error[1] / error[2]);
+    validation_row(name, "tip deflection / length", expected, measured, tolerance);
+    validation_row(name, "order of convergence", 2, order, 0.15);
+}
+
+static void test_small_deflection(void **state)
+{
+    (void)state;
+    const double gamma = 0.01; /* the deflection's own nonlinearity is of its square, 1e-6 of it */
+    assert_second_order("rod cantilever, small load (E9)", cantilever, gamma, gamma / 8, 3e-3);
+}
+
+static void test_large_deflection(void **state)
+{
+    (void)state;
+    double depth = elastica_tip(20);
+    assert_true(depth > 0.6 && depth < 1); /* far from linear: 2.5 */
+    assert_second_order("rod cantilever, heavy elastica, w L^3/EI = 20 (E9)", cantilever, 20, depth, 5e-3);
+}
+
+/* A straight rod bent to a closed polygon of n sides: energy 2 pi^2 EI/L in the limit, and equilibrium by symmetry. */
+static double ring_energy(int n, double unused)
+{
+    (void)unused;
+    cipc_rod_bending joint;
+    double h = 1.0 / n, turn = 2 * pi / n;
+    const double rest[9] = {-h, 0, 0, 0, 0, 0, h, 0, 0}, bent[9] = {-h, 0, 0, 0, 0, 0, h * cos(turn), h * sin(turn), 0};
+    assert_true(cipc_rod_bending_init(&joint, rest, diameter, young, false));
+    return n * cipc_rod_bending_value(bent, &joint) / rigidity();
+}
+
+static void test_ring(void **state)
+{
+    (void)state;
+    double error[2];
+    for (int k = 0; k < 2; k++) error[k] = ring_energy(64 << k, 0) - 2 * pi * pi;
+    validation_row("rod bent to a ring (E12)", "energy L/EI", 2 * pi * pi, ring_energy(128, 0), 1e-3);
+    validation_row("rod bent to a ring (E12)", "order of convergence", 2, log2(error[0] / error[1]), 0.02);
+}
+
+/* Half the span over a: sinh(u)/u = L/D by bisection. */
+static double catenary_sag(double length, double span)
+{
+    double low = 1e-9, high = 20;
+    for (int k = 0; k < 100; k++) {
+        double u = 0.5 * (low + high);
+        if (sinh(u) / u < length / span) low = u;
+        else high = u;
+    }
+    double a = span / (2 * low);
+    return a * (cosh(low) - 1);
+}
+
+/* A chain of n segments, length 1, between points 0.8 apart; it starts as two straight halves. */
+static double chain_sag(int n, double span)
+{
+    sheet_scene scene;
+    double depth = sqrt(0.25 - 0.25 * span * span), *x = calloc(3 * (size_t)(n + 1), sizeof *x);
+    const int held[2] = {0, n};
+    assert_non_null(x);
+    for (int i = 0; i <= n; i++) {
+        double t = (double)i / n;
+        x[3 * i] = span * (t - 0.5);
+        x[3 * i + 1] = -depth * (1 - fabs(2 * t - 1));
+    }
+    make(&scene, n, x, false, 1000);
+    scene.gravity[1] = -9.81;
+    sheet_scene_model(&scene);
+    sheet_hold(&scene, held, 2, NULL, INFINITY);
+    sheet_scene_stepper(&scene);
+    sheet_step(&scene);
+    double sag = -scene.state->position[3 * (n / 2) + 1];
+    sheet_scene_free(&scene);
+    free(x);
+    return sag;
+}
+
+/* The chain is as good as inextensible: it stretches by some rho g L/E = 1e-3. */
+static void test_catenary(void **state)
+{
+    (void)state;
+    validation_row("hanging chain (E8)", "sag / length", catenary_sag(1, 0.8), chain_sag(64, 0.8), 2e-3);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_small_deflection),
+        cmocka_unit_test(test_large_deflection),
+        cmocka_unit_test(test_ring),
+        cmocka_unit_test(test_catenary),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
