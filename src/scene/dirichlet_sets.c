@@ -1,136 +1,129 @@
-/* Friction of pairs and Dirichlet sets. */
-#include "scene/constraints.h"
+/* Dirichlet sets: of one body, or the same of several bodies, which may be released one after the other. */
+#include "scene/dirichlet_sets.h"
 
 #include <math.h>
-#include <stddef.h>
 
+#include "scene/alternatives.h"
+#include "scene/motions.h"
 #include "scene/selection.h"
-#include "scene/transform.h"
+#include "scene/track.h"
 
-enum { SETS_MAX = 100000, MOTIONS_MAX = 1000, PAIRS_MAX = 1000000 };
+enum { SETS_MAX = 100000 };
 
-static void read_between(scene_reader *r, const scene_cursor *pair, const scene_bodies *bodies, int between[2])
+typedef struct set_reader {
+    scene_reader *r;
+    const scene_bodies *bodies;
+    cipc_model *model;
+    scene_box *so_far; /* of each body and those before it; owned */
+} set_reader;
+
+static bool measure(set_reader *s, const scene_cursor *list)
 {
-    scene_cursor member = scene_member(pair, "between");
-    between[0] = between[1] = 0;
-    if (member.value == NULL) scene_reject(r, &member, CIPC_E_MISSING_KEY, "required, but missing: the names of two bodies");
-    if (!scene_is_array(r, &member, 2, 2)) return;
-    for (size_t k = 0; k < 2; k++) {
-        scene_cursor name = scene_element(&member, k);
-        between[k] = scene_find_body(r, &name, bodies);
+    int count = s->bodies->count;
+    s->so_far = cipc_alloc((size_t)count, sizeof *s->so_far);
+    if (s->so_far == NULL) {
+        scene_reject_memory(s->r, list);
+        return false;
     }
+    for (int b = 0; b < count; b++) {
+        const cipc_body_description *d = &s->bodies->descriptions[b];
+        s->so_far[b] = scene_box_of(d->position, d->node_count);
+        if (b > 0) s->so_far[b] = scene_box_around(&s->so_far[b - 1], &s->so_far[b]);
+    }
+    return true;
 }
 
-static void read_pair(scene_reader *r, const scene_cursor *pair, const scene_bodies *bodies, cipc_model *model, bool *given)
+/* Selects in the body's own numbering. */
+static void select_nodes(set_reader *s, const scene_cursor *cursor, int body, cipc_dirichlet_set *set)
 {
-    static const char *const keys[] = {"between", "mu", NULL};
-    int between[2];
-    if (!scene_is_object(r, pair, keys)) return;
-    read_between(r, pair, bodies, between);
-    double mu = scene_number(r, pair, "mu", SCENE_REQUIRED_NUMBER, scene_not_negative);
-    if (r->status != CIPC_OK) return;
-    int low = between[0] < between[1] ? between[0] : between[1], high = between[0] < between[1] ? between[1] : between[0];
-    bool *seen = &given[(size_t)low * (size_t)bodies->count + (size_t)high];
-    if (*seen) {
-        scene_reject(r, pair, CIPC_E_OUT_OF_RANGE, "the pair %s, %s is given twice", bodies->descriptions[low].name,
-                     bodies->descriptions[high].name);
-        return;
-    }
-    *seen = true;
-    cipc_model_set_friction(model, low, high, mu);
-}
-
-void scene_read_friction(scene_reader *r, const scene_cursor *root, const scene_bodies *bodies, cipc_model *model)
-{
-    scene_cursor list = scene_array_member(r, root, "friction");
-    if (!scene_is_array(r, &list, 0, PAIRS_MAX)) return;
-    bool *given = cipc_alloc((size_t)bodies->count * (size_t)bodies->count, sizeof *given);
-    if (given == NULL) {
-        scene_reject_memory(r, &list);
-        return;
-    }
-    for (size_t i = 0; i < json_array_size(list.value) && r->status == CIPC_OK; i++) {
-        scene_cursor pair = scene_element(&list, i);
-        read_pair(r, &pair, bodies, model, given);
-    }
-    cipc_free(given);
-}
-
-static void read_motion(scene_reader *r, const scene_cursor *cursor, cipc_motion *motion)
-{
-    static const char *const keys[] = {"begin", "end", "velocity", "angular_velocity", "axis", "center", NULL};
-    static const double zero[3] = {0, 0, 0}, up[3] = {0, 1, 0};
-    if (!scene_is_object(r, cursor, keys)) return;
-    motion->begin = scene_number(r, cursor, "begin", 0, scene_any);
-    motion->end = scene_time_or_never(r, cursor, "end");
-    scene_vector(r, cursor, "velocity", zero, motion->velocity);
-    motion->angular_velocity = scene_number(r, cursor, "angular_velocity", 0, scene_any);
-    scene_read_axis(r, cursor, "axis", up, motion->axis);
-    scene_vector(r, cursor, "center", zero, motion->center);
-    scene_cursor end = scene_member(cursor, "end");
-    if (!(motion->end > motion->begin))
-        scene_reject(r, &end, CIPC_E_OUT_OF_RANGE, "is %g, but must be after the begin at %g", motion->end, motion->begin);
-}
-
-static void read_motions(scene_reader *r, const scene_cursor *set_cursor, cipc_dirichlet_set *set)
-{
-    scene_cursor list = scene_array_member(r, set_cursor, "motion");
-    if (!scene_is_array(r, &list, 0, MOTIONS_MAX)) return;
-    size_t count = json_array_size(list.value);
-    set->motions = cipc_alloc(count, sizeof *set->motions);
-    if (set->motions == NULL) {
-        scene_reject_memory(r, &list);
-        return;
-    }
-    set->motion_count = (int)count;
-    for (size_t i = 0; i < count; i++) {
-        scene_cursor motion = scene_element(&list, i);
-        read_motion(r, &motion, &set->motions[i]);
-    }
-}
-
-/* Selects in the body's own numbering, then counts from the model's first node. */
-static void read_nodes(scene_reader *r, const scene_cursor *set_cursor, const scene_bodies *bodies, const cipc_model *model,
-                       cipc_dirichlet_set *set)
-{
-    scene_cursor name = scene_member(set_cursor, "body"), select = scene_member(set_cursor, "select");
-    int body = scene_find_body(r, &name, bodies);
-    if (select.value == NULL) scene_reject(r, &select, CIPC_E_MISSING_KEY, "required, but missing: one of box, nodes, nearest, all");
-    if (r->status != CIPC_OK) return;
-    const cipc_body_description *d = &bodies->descriptions[body];
+    const cipc_body_description *d = &s->bodies->descriptions[body];
+    const scene_selectable nodes = {d->position, d->node_count, s->so_far[body], s->so_far[s->bodies->count - 1]};
+    scene_cursor select = scene_member(cursor, "select");
+    if (select.value == NULL) scene_reject(s->r, &select, CIPC_E_MISSING_KEY, "required, but missing: one of box, nodes, nearest, ring, all");
+    if (s->r->status != CIPC_OK) return;
     set->nodes = cipc_alloc((size_t)d->node_count, sizeof *set->nodes);
-    if (set->nodes == NULL) {
-        scene_reject_memory(r, set_cursor);
-        return;
-    }
-    set->node_count = scene_select_nodes(r, &select, d->position, d->node_count, set->nodes);
-    for (int i = 0; i < set->node_count; i++) set->nodes[i] += model->bodies[body].first_node;
+    if (set->nodes == NULL)
+        scene_reject_memory(s->r, cursor);
+    else
+        set->node_count = scene_select_nodes(s->r, &select, &nodes, set->nodes);
 }
 
-static void read_set(scene_reader *r, const scene_cursor *cursor, const scene_bodies *bodies, cipc_model *model)
+static void read_track(set_reader *s, const scene_cursor *cursor, int body, cipc_dirichlet_set *set)
 {
-    static const char *const keys[] = {"name", "body", "select", "release", "motion", NULL};
-    cipc_dirichlet_set set = {0};
-    if (!scene_is_object(r, cursor, keys)) return;
-    if (json_object_get(cursor->value, "name") != NULL) scene_string(r, cursor, "name", NULL);
-    read_nodes(r, cursor, bodies, model, &set);
-    set.release = scene_time_or_never(r, cursor, "release");
-    read_motions(r, cursor, &set);
+    const cipc_body_description *d = &s->bodies->descriptions[body];
+    const scene_tracked tracked = {d->name, d->node_count, set->nodes, set->node_count};
+    scene_cursor track = scene_member(cursor, "track");
+    if (track.value == NULL || s->r->status != CIPC_OK) return;
+    if (set->motion_count > 0) scene_reject(s->r, &track, CIPC_E_OUT_OF_RANGE, "cannot stand beside motion: the nodes follow one of them");
+    scene_read_track(s->r, &track, &tracked, &set->track);
+}
+
+/* The set of one body. `pattern` has what sets of several bodies share. */
+static void add_set(set_reader *s, const scene_cursor *cursor, const scene_cursor *name, const cipc_dirichlet_set *pattern)
+{
+    cipc_dirichlet_set set = *pattern;
     cipc_error error;
-    if (r->status == CIPC_OK) {
-        cipc_status status = cipc_model_add_dirichlet(model, &set, &error);
-        if (status != CIPC_OK) scene_reject(r, cursor, status, "%s", error.what);
-    }
+    int body = scene_find_body(s->r, name, s->bodies);
+    select_nodes(s, cursor, body, &set);
+    read_track(s, cursor, body, &set);
+    for (int i = 0; i < set.node_count; i++) set.nodes[i] += s->model->bodies[body].first_node;
+    if (s->r->status == CIPC_OK) scene_adopt(s->r, cursor, cipc_model_add_dirichlet(s->model, &set, &error), &error);
     cipc_free(set.nodes);
-    cipc_free(set.motions);
+    cipc_free(set.track.frames);
+}
+
+/* What only several bodies have, or only one. */
+static void check_number(set_reader *s, const scene_cursor *cursor, bool several)
+{
+    scene_cursor interval = scene_member(cursor, "release_interval"), track = scene_member(cursor, "track");
+    if (!several && interval.value != NULL)
+        scene_reject(s->r, &interval, CIPC_E_MISSING_KEY, "is the time from one body's release to the next's, but there is no 'bodies'");
+    if (several && track.value != NULL)
+        scene_reject(s->r, &track, CIPC_E_OUT_OF_RANGE, "has the vertices of one body, which 'body' must name");
+}
+
+/* A body after the other, each released an interval after the one before. */
+static void add_sets(set_reader *s, const scene_cursor *cursor, cipc_dirichlet_set *pattern)
+{
+    scene_cursor names = scene_member(cursor, "bodies"), interval = scene_member(cursor, "release_interval");
+    double first = pattern->release, step = 0;
+    if (!scene_is_array(s->r, &names, 1, SETS_MAX)) return;
+    if (isfinite(first))
+        step = scene_number(s->r, cursor, "release_interval", 0, scene_not_negative);
+    else if (interval.value != NULL)
+        scene_reject(s->r, &interval, CIPC_E_MISSING_KEY, "follows the first release, but 'release' is never");
+    for (size_t i = 0; i < json_array_size(names.value) && s->r->status == CIPC_OK; i++) {
+        scene_cursor name = scene_element(&names, i);
+        pattern->release = first + (double)i * step;
+        add_set(s, cursor, &name, pattern);
+    }
+}
+
+static void read_set(set_reader *s, const scene_cursor *cursor)
+{
+    static const char *const keys[] = {"name", "body", "bodies", "select", "release", "release_interval", "motion", "track", NULL};
+    static const char *const ways[] = {"body", "bodies", NULL};
+    cipc_dirichlet_set pattern = {0};
+    if (!scene_is_object(s->r, cursor, keys)) return;
+    if (json_object_get(cursor->value, "name") != NULL) scene_string(s->r, cursor, "name", NULL);
+    int way = scene_one_of(s->r, cursor, ways);
+    check_number(s, cursor, way == 1);
+    pattern.release = scene_time_or_never(s->r, cursor, "release");
+    scene_read_motions(s->r, cursor, &pattern.motion_count, &pattern.motions);
+    scene_cursor name = scene_member(cursor, "body");
+    if (s->r->status == CIPC_OK && way == 0) add_set(s, cursor, &name, &pattern);
+    if (s->r->status == CIPC_OK && way == 1) add_sets(s, cursor, &pattern);
+    cipc_free(pattern.motions);
 }
 
 void scene_read_dirichlet(scene_reader *r, const scene_cursor *root, const scene_bodies *bodies, cipc_model *model)
 {
+    set_reader s = {.r = r, .bodies = bodies, .model = model};
     scene_cursor list = scene_array_member(r, root, "dirichlet");
-    if (!scene_is_array(r, &list, 0, SETS_MAX)) return;
+    if (!scene_is_array(r, &list, 0, SETS_MAX) || !measure(&s, &list)) return;
     for (size_t i = 0; i < json_array_size(list.value) && r->status == CIPC_OK; i++) {
         scene_cursor set = scene_element(&list, i);
-        read_set(r, &set, bodies, model);
+        read_set(&s, &set);
     }
+    cipc_free(s.so_far);
 }
