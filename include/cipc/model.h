@@ -89,6 +89,7 @@ typedef struct cipc_motion {
     double velocity[3];                   /* m/s */
     double center[3], axis[3];            /* rotation about the axis through center; axis of unit length */
     double angular_velocity;              /* rad/s; the rotation of a step is exact and comes before the translation */
+    double turn;                          /* s: both velocities change sign every so many seconds after the begin; 0: never */
 } cipc_motion;
 
 /* A set of Dirichlet nodes: fixed where they are, or moved by windows, until released. */

@@ -41,6 +41,7 @@ static cipc_status check_set(const cipc_model *model, const cipc_dirichlet_set *
                             m->axis[0], m->axis[1], m->axis[2], m->angular_velocity, m->begin};
         for (size_t k = 0; k < sizeof numbers / sizeof *numbers; k++)
             if (!isfinite(numbers[k])) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "dirichlet", "a motion has a number that is not finite");
+        if (!(m->turn >= 0) || isinf(m->turn)) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "dirichlet", "a motion turns every %g s", m->turn);
         if (!(m->end > m->begin)) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "dirichlet", "a motion ends at %g s, not after its begin %g s", m->end, m->begin);
         if (m->angular_velocity != 0 && !(v3_norm(m->axis) > 0)) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "dirichlet", "a rotation needs an axis");
     }
@@ -92,6 +93,23 @@ static void rotate(double y[3], const double c[3], const double axis[3], double 
     for (int k = 0; k < 3; k++) y[k] = c[k] + cosine * r[k] + sine * across[k] + (1 - cosine) * along * axis[k];
 }
 
+/* Where something is that moves to and fro at unit speed and turns every `turn` seconds. */
+static double to_and_fro(double turn, double time)
+{
+    double part = fmod(time, 2 * turn);
+    return part < turn ? part : 2 * turn - part;
+}
+
+/* Seconds forward less seconds backward of `duration` seconds that begin `elapsed` seconds after the window's begin. Between two turns that is the
+ * duration itself, to the last bit. */
+static double net_duration(double turn, double elapsed, double duration)
+{
+    if (!(turn > 0)) return duration;
+    double rounding = 1e-9 * duration, first = floor((elapsed + rounding) / turn), last = floor((elapsed + duration - rounding) / turn);
+    if (first == last) return fmod(first, 2) == 0 ? duration : -duration;
+    return to_and_fro(turn, elapsed + duration) - to_and_fro(turn, elapsed);
+}
+
 /* The part of [time, time + h] inside the window drives the node; true if it moved it. */
 static bool apply_motion(const cipc_motion *m, double time, double h, double y[3])
 {
@@ -99,6 +117,8 @@ static bool apply_motion(const cipc_motion *m, double time, double h, double y[3
     double from = fmax(m->begin - time, 0), to = fmin(m->end - time, h), duration = to - from;
     /* A window that starts at the end of the step, up to the rounding of step * h, has not started. */
     if (!(duration > 1e-9 * h)) return false;
+    duration = net_duration(m->turn, from + (time - m->begin), duration);
+    if (duration == 0) return false;
     if (m->angular_velocity != 0) rotate(y, m->center, m->axis, m->angular_velocity * duration);
     v3_axpy(y, duration, m->velocity);
     return true;

@@ -108,6 +108,7 @@ static void read_body(scene_reader *r, const scene_cursor *cursor, unsigned long
     scene_read_material(r, cursor, d->kind, defaults, &d->material);
     d->offset = scene_number(r, cursor, "offset", 0, scene_not_negative);
     d->friction = scene_number(r, cursor, "friction", 0, scene_not_negative);
+    if (json_object_get(cursor->value, "collision_group") != NULL) body->group = scene_string(r, cursor, "collision_group", NULL);
     read_shape(r, cursor, seed, body);
     d->node_count = body->mesh.node_count;
     d->rest = body->rest;

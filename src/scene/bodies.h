@@ -10,6 +10,7 @@ typedef struct scene_body {
     cipc_body_description description;
     cipc_mesh mesh;
     double *rest, *position, *velocity;
+    const char *group; /* whose bodies do not meet; NULL: none. Lives as long as the tree */
 } scene_body;
 
 typedef struct scene_bodies {

@@ -37,7 +37,7 @@ bool scene_is_body(scene_reader *r, const scene_cursor *body)
     static const char *const keys[] = {"name",      "offset",   "friction", "fixed",    "transform",       "rest",           "velocity",
                                        "damping",   "density",  "shell",    "material", "membrane_factor", "bending_factor", "thickness",
                                        "membrane",  "bending",  "rods",     "diameter", "strain_limit",    "rest_curvature", "young",
-                                       "particles", "volume",   "poisson",  "model",    NULL};
+                                       "particles", "volume",   "poisson",  "model",    "collision_group", NULL};
     return scene_is_object(r, body, keys);
 }
 

@@ -6,9 +6,11 @@
 
 #include "scene/bodies.h"
 #include "scene/body_kind.h"
-#include "scene/constraints.h"
+#include "scene/dirichlet_sets.h"
 #include "scene/json_text.h"
 #include "scene/overrides.h"
+#include "scene/pairs.h"
+#include "scene/seams.h"
 #include "scene/settings.h"
 #include "scene/text_file.h"
 
@@ -51,13 +53,17 @@ static void build(scene_reader *r, const scene_cursor *root, const scene_bodies 
         return;
     }
     scene_read_friction(r, root, bodies, scene->model);
+    scene_read_collisions(r, root, bodies, scene->model);
+    scene_read_stitches(r, root, bodies, scene->model);
     scene_read_dirichlet(r, root, bodies, scene->model);
 }
 
 static void read_scene(scene_reader *r, cipc_scene *scene)
 {
-    static const char *const keys[] = {"method",     "title",  "size",    "sizes",  "compat",   "time_step", "steps",   "gravity", "seed",
-                                       "integrator", "newton", "contact", "bodies", "friction", "dirichlet", "monitor", "output",  NULL};
+    static const char *const keys[] = {"method",   "title",       "size",            "sizes",      "compat",    "time_step",  "steps",
+                                       "gravity",  "seed",        "integrator",      "newton",     "contact",   "bodies",     "friction",
+                                       "stitches", "quasistatic", "strain_coupling", "collisions", "dirichlet", "monitor",    "output",
+                                       NULL};
     double gravity[3];
     scene_bodies bodies = {0};
     scene_cursor root = scene_root(r->root);

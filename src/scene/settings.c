@@ -124,6 +124,7 @@ static void read_size(scene_reader *r, const scene_cursor *root, cipc_scene *sce
 void scene_read_settings(scene_reader *r, const scene_cursor *root, cipc_scene *scene, double gravity[3])
 {
     static const char *const methods[] = {"c-ipc", NULL}, *const compats[] = {"none", "released", NULL};
+    static const char *const couplings[] = {"coupled", "split", NULL}; /* in the order of cipc_strain_coupling */
     cipc_implicit_options *options = &scene->options;
     *options = cipc_implicit_options_default();
     scene_choice(r, root, "method", "method", methods, 0);
@@ -134,6 +135,8 @@ void scene_read_settings(scene_reader *r, const scene_cursor *root, cipc_scene *
     scene->steps = scene_integer(r, root, "steps", SCENE_REQUIRED, 0, INT_MAX);
     scene_vector(r, root, "gravity", gravity_default, gravity);
     scene->seed = (unsigned long)scene_integer(r, root, "seed", 1, 0, INT_MAX);
+    options->quasistatic = scene_boolean(r, root, "quasistatic", false);
+    options->strain_coupling = (cipc_strain_coupling)scene_choice(r, root, "strain_coupling", "coupling of strain limits", couplings, 0);
     read_integrator(r, root, &options->integrator);
     read_newton(r, root, options);
     read_contact(r, root, options);

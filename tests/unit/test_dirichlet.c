@@ -34,6 +34,7 @@ static void free_sets(cipc_model *m)
     for (int s = 0; s < m->dirichlet_count; s++) {
         cipc_free(m->dirichlet[s].nodes);
         cipc_free(m->dirichlet[s].motions);
+        cipc_free(m->dirichlet[s].track.frames);
     }
     cipc_free(m->dirichlet);
 }
@@ -217,6 +218,82 @@ static void test_rotation_comes_before_translation(void **state)
     free_sets(&m);
 }
 
+/* To and fro: turns every 0.2 s after its begin at 0.1, on the steps' ends (4 h, 8 h by rounding beside 0.3, 0.5 and so on), and ends at 0.8. */
+static void test_turns_at_the_ends_of_steps(void **state)
+{
+    (void)state;
+    const double h = 0.05, begin = 0.1;
+    cipc_model m = {.node_count = NODES};
+    cipc_motion motion = window(begin, 0.8, 1);
+    const int nodes[] = {1}, sign[20] = {0, 0, 1, 1, 1, 1, -1, -1, -1, -1, 1, 1, 1, 1, -1, -1, 0, 0, 0, 0};
+    motion.turn = 0.2;
+    add(&m, nodes, 1, INFINITY, &motion, 1);
+    for (int step = 0; step < 20; step++) {
+        targets t = targets_of(&m, step * h, h);
+        assert_int_equal(t.moves[1], sign[step] != 0);
+        assert_true(fabs(t.x[3] - sign[step] * h) <= ROUNDINGS);
+    }
+    free_sets(&m);
+}
+
+/* A step between turns is driven for h to the last bit, however late it is. */
+static void test_late_turns_are_as_exact_as_early_ones(void **state)
+{
+    (void)state;
+    const double h = 0.04;
+    cipc_model m = {.node_count = NODES};
+    cipc_motion motion = window(0, INFINITY, 1);
+    const int nodes[] = {1};
+    motion.turn = 25 * h;
+    add(&m, nodes, 1, INFINITY, &motion, 1);
+    for (int step = 0; step < 100000; step += 997) assert_true(targets_of(&m, step * h, h).x[3] == (step / 25 % 2 == 0 ? h : -h));
+    free_sets(&m);
+}
+
+/* In a step that holds turns, forward and backward cancel. */
+static void test_turns_within_a_step(void **state)
+{
+    (void)state;
+    const struct {
+        double turn, h, moved;
+    } cases[] = {{0.75, 1, 0.5}, {0.5, 1, 0}, {0.25, 1, 0}, {0.4, 1, 0.2}, {1, 1, 1}, {2, 1, 1}, {0.3, 1, 0.2}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        cipc_model m = {.node_count = NODES};
+        cipc_motion motion = {.begin = 0, .end = INFINITY, .velocity = {1, 0, 0}, .axis = {1, 0, 0}, .angular_velocity = PI / 2, .turn = cases[i].turn};
+        const int nodes[] = {1};
+        add(&m, nodes, 1, INFINITY, &motion, 1);
+        targets t = targets_of(&m, 0, cases[i].h);
+        assert_true(fabs(t.x[3] - cases[i].moved) <= ROUNDINGS);
+        assert_true(fabs(t.x[4] - 2 * cos(PI / 2 * cases[i].moved)) <= ROUNDINGS && fabs(t.x[5] - 2 * sin(PI / 2 * cases[i].moved)) <= ROUNDINGS);
+        free_sets(&m);
+    }
+}
+
+/* Straight from frame to frame, at rest before the first and after the last; a step that ends at a frame's time ends at that frame. */
+static void test_tracks(void **state)
+{
+    (void)state;
+    double frames[] = {1, 0, 0, 0, 2, 0, 2, 0, 0, 0, 2, 0, 2, 0, 4, 0, 3, 1};
+    int nodes[] = {0, 1};
+    cipc_dirichlet_set set = {
+        .nodes = nodes, .node_count = 2, .release = INFINITY, .track = {.frame_count = 3, .begin = 1, .interval = 0.5, .frames = frames}};
+    cipc_model m = {.node_count = NODES};
+    assert_int_equal(cipc_model_add_dirichlet(&m, &set, NULL), CIPC_OK);
+    const struct {
+        double time, x[6];
+    } cases[] = {
+        {0, {1, 0, 0, 0, 2, 0}},       {0.75, {1, 0, 0, 0, 2, 0}}, {1, {1.5, 0, 0, 0, 2, 0}},      {1.25, {2, 0, 0, 0, 2, 0}},
+        {1.5, {2, 0, 2, 0, 2.5, 0.5}}, {1.75, {2, 0, 4, 0, 3, 1}}, {1.7, {2, 0, 3.6, 0, 2.9, 0.9}}, {9, {2, 0, 4, 0, 3, 1}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        targets t = targets_of(&m, cases[i].time, 0.25);
+        for (int k = 0; k < 6; k++) assert_true(fabs(t.x[k] - cases[i].x[k]) <= ROUNDINGS * 4);
+        assert_true(t.is_dirichlet[0] && t.is_dirichlet[1] && !t.is_dirichlet[2]);
+        assert_int_equal(t.moves[0], cases[i].x[0] != 1);
+    }
+    free_sets(&m);
+}
+
 static void test_motions_follow_one_another(void **state)
 {
     (void)state;
@@ -279,6 +356,9 @@ static void test_bad_sets(void **state)
         {&motion.end, NAN, "not after"},
         {&motion.end, 1, "not after"},
         {&motion.axis[2], 0, "axis"},
+        {&motion.turn, -1, "turns every"},
+        {&motion.turn, NAN, "turns every"},
+        {&motion.turn, INFINITY, "turns every"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         motion = (cipc_motion){.begin = 1, .end = 2, .axis = {0, 0, 1}, .angular_velocity = 1};
@@ -328,6 +408,10 @@ int main(void)
         cmocka_unit_test(test_release),
         cmocka_unit_test(test_rotation_is_exact),
         cmocka_unit_test(test_rotation_comes_before_translation),
+        cmocka_unit_test(test_turns_at_the_ends_of_steps),
+        cmocka_unit_test(test_late_turns_are_as_exact_as_early_ones),
+        cmocka_unit_test(test_turns_within_a_step),
+        cmocka_unit_test(test_tracks),
         cmocka_unit_test(test_motions_follow_one_another),
         cmocka_unit_test(test_last_set_wins),
         cmocka_unit_test(test_bad_sets),

@@ -12,12 +12,15 @@
 enum { NODES = 9 };
 static const double sheet[3 * NODES] = {-1, 5, 10, 0, 5, 10, 1, 5, 10, -1, 5, 11, 0, 5, 11, 1, 5, 11, -1, 5, 12, 0, 5, 12, 1, 5, 12};
 
+/* A body before it reaches down to y = 0 and out to x = 3, one after it up to y = 10. */
+static const scene_selectable body = {sheet, NODES, {{-1, 0, 10}, {3, 5, 12}}, {{-1, 0, 10}, {3, 10, 12}}};
+
 static void assert_selected(const char *text, int count, const int *want)
 {
     int nodes[NODES];
     scene_reader r = reader_of(text);
     scene_cursor root = scene_root(r.root);
-    int found = scene_select_nodes(&r, &root, sheet, NODES, nodes);
+    int found = scene_select_nodes(&r, &root, &body, nodes);
     if (r.status != CIPC_OK) fail_msg("%s: %s", r.error.place, r.error.what);
     assert_int_equal(found, count);
     assert_memory_equal(nodes, want, (size_t)count * sizeof *nodes);
@@ -29,7 +32,7 @@ static void assert_refused(const char *text, cipc_status status, const char *pla
     int nodes[NODES];
     scene_reader r = reader_of(text);
     scene_cursor root = scene_root(r.root);
-    scene_select_nodes(&r, &root, sheet, NODES, nodes);
+    scene_select_nodes(&r, &root, &body, nodes);
     assert_rejection(&r, status, place, what);
     scene_reader_free(&r);
 }
@@ -53,6 +56,40 @@ static void test_flat_directions(void **state)
     assert_selected("{\"box\": {\"min\": [0, 1, 0], \"max\": [0, 1, 0]}}", 1, (int[]){0});
 }
 
+static void test_boxes_relative_to_other_bodies(void **state)
+{
+    (void)state;
+    assert_selected("{\"box\": {\"max\": [0.25, 1, 1], \"relative_to\": \"scene\"}}", 6, (int[]){0, 1, 3, 4, 6, 7});
+    assert_selected("{\"box\": {\"max\": [0.25, 1, 1], \"relative_to\": \"body\"}}", 3, (int[]){0, 3, 6});
+    assert_selected("{\"box\": {\"min\": [0, 1, 0.5], \"relative_to\": \"so-far\"}}", 6, (int[]){3, 4, 5, 6, 7, 8});
+    assert_selected("{\"box\": {\"min\": [0, 0.5, 0.5], \"max\": [1, 0.5, 1], \"relative_to\": \"scene\"}}", 6, (int[]){3, 4, 5, 6, 7, 8});
+    assert_refused("{\"box\": {\"min\": [0, 1, 0], \"relative_to\": \"scene\"}}", CIPC_E_OUT_OF_RANGE, "t.json:1:1", "selects none");
+    assert_refused("{\"box\": {\"relative_to\": \"so_far\"}}", CIPC_E_OUT_OF_RANGE, "t.json:1:10 box.relative_to", "'so-far'");
+}
+
+static void test_rings(void **state)
+{
+    (void)state;
+    assert_selected("{\"ring\": {\"end\": \"min\"}}", 3, (int[]){0, 3, 6});
+    assert_selected("{\"ring\": {\"end\": \"max\"}}", 3, (int[]){2, 5, 8});
+    assert_selected("{\"ring\": {\"axis\": [0, 0, 3], \"end\": \"max\"}}", 3, (int[]){6, 7, 8});
+    assert_selected("{\"ring\": {\"axis\": [1, 0, 1], \"end\": \"min\"}}", 1, (int[]){0});
+    assert_selected("{\"ring\": {\"axis\": [1, 0, 1], \"end\": \"min\", \"tolerance\": 0.3}}", 3, (int[]){0, 1, 3});
+    assert_refused("{\"ring\": {\"axis\": [1, 0, 1]}}", CIPC_E_MISSING_KEY, "t.json:1:2 ring.end", "missing");
+    assert_refused("{\"ring\": {\"end\": \"low\"}}", CIPC_E_OUT_OF_RANGE, "t.json:1:11 ring.end", "unknown end 'low'");
+    assert_refused("{\"ring\": {\"end\": \"min\", \"axis\": [0, 0, 0]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:25 ring.axis", "not a direction");
+    assert_refused("{\"ring\": {\"end\": \"min\", \"tolerance\": -1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:25 ring.tolerance", "at least 0");
+}
+
+static void test_bounding_boxes(void **state)
+{
+    (void)state;
+    static const double other[6] = {0, 7, 11, -2, 6, 11};
+    scene_box a = scene_box_of(sheet, NODES), b = scene_box_of(other, 2), both = scene_box_around(&a, &b);
+    assert_true(a.low[0] == -1 && a.high[0] == 1 && a.low[1] == 5 && a.high[1] == 5 && a.high[2] == 12);
+    assert_true(both.low[0] == -2 && both.high[0] == 1 && both.low[1] == 5 && both.high[1] == 7 && both.low[2] == 10 && both.high[2] == 12);
+}
+
 static void test_lists_nearest_and_all(void **state)
 {
     (void)state;
@@ -65,7 +102,7 @@ static void test_lists_nearest_and_all(void **state)
 static void test_rejections(void **state)
 {
     (void)state;
-    assert_refused("{}", CIPC_E_MISSING_KEY, "t.json:1:1", "needs one of box, nodes, nearest, all");
+    assert_refused("{}", CIPC_E_MISSING_KEY, "t.json:1:1", "needs one of box, nodes, nearest, ring, all");
     assert_refused("{\"all\": true, \"nodes\": [1]}", CIPC_E_OUT_OF_RANGE, "t.json:1:1", "has 2 of");
     assert_refused("{\"nodes\": [1, 9]}", CIPC_E_OUT_OF_RANGE, "t.json:1:15 nodes.1", "is 9, but must be at least 0 and at most 8");
     assert_refused("{\"nodes\": [-1]}", CIPC_E_OUT_OF_RANGE, "t.json:1:12 nodes.0", "is -1");
@@ -86,6 +123,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_boxes),
         cmocka_unit_test(test_flat_directions),
+        cmocka_unit_test(test_boxes_relative_to_other_bodies),
+        cmocka_unit_test(test_rings),
+        cmocka_unit_test(test_bounding_boxes),
         cmocka_unit_test(test_lists_nearest_and_all),
         cmocka_unit_test(test_rejections),
     };

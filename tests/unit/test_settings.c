@@ -31,6 +31,7 @@ static void test_defaults_are_the_integrators_own(void **state)
     assert_true(o->ccd.slackness == want.ccd.slackness && o->ccd.max_iterations == want.ccd.max_iterations &&
                 o->ccd.method == CIPC_CCD_CERTIFIED && !o->ccd.refine && s->monitor_swept);
     assert_true(o->barrier_stiffness == 0 && !o->released && o->integrator.beta == 1 && o->integrator.gamma == 0);
+    assert_true(!o->quasistatic && o->strain_coupling == CIPC_STRAIN_COUPLED);
     assert_true(s->model->gravity[1] == -9.81 && s->model->gravity[0] == 0);
     assert_true(s->monitor && s->monitor_reach == want.contact.dhat && !s->write_obj && s->camera_zoom == 1 && s->seed == 1);
     assert_string_equal(s->title, "");
@@ -42,7 +43,7 @@ static void test_everything_can_be_set(void **state)
 {
     (void)state;
     cipc_scene *s = accept_around(
-        "\"method\": \"c-ipc\", \"title\": \"A test\", \"size\": \"tiny\", \"gravity\": [1, 2, 3], \"seed\": 42, \"integrator\": "
+        "\"quasistatic\": true, \"strain_coupling\": \"split\", \"method\": \"c-ipc\", \"title\": \"A test\", \"size\": \"tiny\", \"gravity\": [1, 2, 3], \"seed\": 42, \"integrator\": "
         "\"implicit-midpoint\","
         "\"newton\": {\"tolerance\": 1e-6, \"norm\": \"rms\", \"iterations\": 7, \"line_search_halvings\": 8},"
         "\"contact\": {\"dhat\": 2e-3, \"area_weights\": false, \"barrier_stiffness\": 5, \"friction_iterations\": 0, \"friction_cap\": 3,"
@@ -50,6 +51,7 @@ static void test_everything_can_be_set(void **state)
         "\"monitor\": {\"enabled\": false, \"swept\": false, \"reach\": 0.5}, \"output\": {\"obj\": true, \"camera\": {\"azimuth\": 1, \"elevation\": 2, "
         "\"zoom\": 3}},");
     cipc_implicit_options *o = &s->options;
+    assert_true(o->quasistatic && o->strain_coupling == CIPC_STRAIN_SPLIT);
     assert_string_equal(s->title, "A test");
     assert_string_equal(s->size, "tiny");
     assert_true(s->model->gravity[0] == 1 && s->model->gravity[2] == 3 && s->seed == 42);
@@ -121,6 +123,8 @@ static void test_rejections(void **state)
     reject_around("\"contact\": {@\"friction_iterations\": -1},", "", CIPC_E_OUT_OF_RANGE, "contact.friction_iterations", "at least 0");
     reject_around("\"contact\": {@\"friction_velocity\": 0},", "", CIPC_E_OUT_OF_RANGE, "contact.friction_velocity", "greater than 0");
     reject_around("@\"contact\": [],", "", CIPC_E_WRONG_TYPE, "contact", "an object");
+    reject_around("@\"quasistatic\": 1,", "", CIPC_E_WRONG_TYPE, "quasistatic", "true or false");
+    reject_around("@\"strain_coupling\": \"splt\",", "", CIPC_E_OUT_OF_RANGE, "strain_coupling", "'split'");
     reject_around("\"monitor\": {@\"enabled\": \"yes\"},", "", CIPC_E_WRONG_TYPE, "monitor.enabled", "true or false");
     reject_around("\"monitor\": {@\"reach\": -1},", "", CIPC_E_OUT_OF_RANGE, "monitor.reach", "at least 0");
     reject_around("\"output\": {\"camera\": {@\"zoom\": 0}},", "", CIPC_E_OUT_OF_RANGE, "output.camera.zoom", "greater than 0");

@@ -1,4 +1,4 @@
-/* Friction of pairs, Dirichlet sets and their motion. */
+/* Dirichlet sets: of one body or several, held, moved, released. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -19,40 +19,6 @@ static cipc_scene *accept_around(const char *root)
 }
 
 #define GRID "\"shell\": {\"grid\": {\"size\": [1, 1], \"cells\": [1, 1]}}, \"material\": \"wool\""
-
-static void test_friction_of_pairs(void **state)
-{
-    (void)state;
-    cipc_scene *s = accept_scene("{\"time_step\": 1, \"steps\": 1, \"bodies\": [{\"name\": \"a\", \"friction\": 0.5, " GRID
-                                 "}, {\"name\": \"b\", \"friction\": 0.3, " GRID "}],"
-                                 "\"friction\": [{\"between\": [\"b\", \"b\"], \"mu\": 0.1}]}",
-                                 NULL);
-    const double *mu = s->model->pair_friction;
-    assert_true(mu[0] == 0.5 && mu[1] == 0.3 && mu[2] == 0.3 && mu[3] == 0.1); /* the smaller of the two bodies', unless said */
-    cipc_scene_destroy(s);
-    s = accept_scene("{\"time_step\": 1, \"steps\": 1, \"bodies\": [{\"name\": \"a\", " GRID "}, {\"name\": \"b\", " GRID "}],"
-                     "\"friction\": [{\"between\": [\"b\", \"a\"], \"mu\": 0.7}]}",
-                     NULL);
-    mu = s->model->pair_friction;
-    assert_true(mu[0] == 0 && mu[1] == 0.7 && mu[2] == 0.7 && mu[3] == 0);
-    cipc_scene_destroy(s);
-}
-
-static void test_friction_rejections(void **state)
-{
-    (void)state;
-    reject_around("\"friction\": [{\"between\": [\"cloth\", @\"clth\"], \"mu\": 1}],", "", CIPC_E_OUT_OF_RANGE, "friction.0.between.1",
-                  "no body is called 'clth'; the nearest is 'cloth'");
-    reject_around("\"friction\": [@{\"between\": [\"cloth\", \"cloth\"]}],", "", CIPC_E_MISSING_KEY, "friction.0.mu", "missing");
-    reject_around("\"friction\": [@{\"mu\": 1}],", "", CIPC_E_MISSING_KEY, "friction.0.between", "names of two bodies");
-    reject_around("\"friction\": [{@\"between\": [\"cloth\"], \"mu\": 1}],", "", CIPC_E_OUT_OF_RANGE, "friction.0.between", "must have 2");
-    reject_around("\"friction\": [{\"between\": [\"cloth\", @1], \"mu\": 1}],", "", CIPC_E_WRONG_TYPE, "friction.0.between.1", "a string");
-    reject_around("\"friction\": [{\"between\": [\"cloth\", \"cloth\"], @\"mu\": -0.1}],", "", CIPC_E_OUT_OF_RANGE, "friction.0.mu",
-                  "at least 0");
-    reject_around("\"friction\": [{\"between\": [\"cloth\", \"cloth\"], \"mu\": 1}, @{\"between\": [\"cloth\", \"cloth\"], \"mu\": 1}],",
-                  "", CIPC_E_OUT_OF_RANGE, "friction.1", "the pair cloth, cloth is given twice");
-    reject_around("@\"friction\": 0.4,", "", CIPC_E_WRONG_TYPE, "friction", "an array");
-}
 
 static void test_sets_and_motions(void **state)
 {
@@ -95,7 +61,7 @@ static void test_dirichlet_rejections(void **state)
     (void)state;
     reject_around("\"dirichlet\": [{@\"body\": \"sheet\", \"select\": {\"all\": true}}],", "", CIPC_E_OUT_OF_RANGE, "dirichlet.0.body",
                   "no body is called 'sheet'");
-    reject_around("\"dirichlet\": [@{\"select\": {\"all\": true}}],", "", CIPC_E_MISSING_KEY, "dirichlet.0.body", "missing");
+    reject_around("\"dirichlet\": [@{\"select\": {\"all\": true}}],", "", CIPC_E_MISSING_KEY, "dirichlet.0", "needs one of body, bodies");
     reject_around("\"dirichlet\": [@{\"body\": \"cloth\"}],", "", CIPC_E_MISSING_KEY, "dirichlet.0.select", "missing");
     reject_around(
         "\"dirichlet\": [{\"name\": \"top\", \"body\": \"cloth\", @\"select\": {\"box\": {\"min\": [0.1, 0, 0], \"max\": [0.2, 1, 1]}}}],",
@@ -116,11 +82,68 @@ static void test_dirichlet_rejections(void **state)
                   "a number");
 }
 
+#define TWO "{\"time_step\": 1, \"steps\": 1, \"bodies\": [{\"name\": \"a\", " GRID "}, {\"name\": \"b\", " GRID ", \"transform\": {\"translate\": [0, 1, 0]}}], "
+
+/* One set a body, in the order of the names, each released an interval after the one before. */
+static void test_sets_of_several_bodies(void **state)
+{
+    (void)state;
+    cipc_scene *s = accept_scene(TWO "\"dirichlet\": [{\"bodies\": [\"b\", \"a\"], \"select\": {\"nodes\": [1, 3]}, \"release\": 2, \"release_interval\": 0.5, "
+                                     "\"motion\": [{\"velocity\": [0, 1, 0]}]}, {\"bodies\": [\"a\"], \"select\": {\"all\": true}}]}",
+                                 NULL);
+    assert_int_equal(s->model->dirichlet_count, 3);
+    const cipc_dirichlet_set *set = s->model->dirichlet;
+    assert_true(set[0].node_count == 2 && set[0].nodes[0] == 4 + 1 && set[0].nodes[1] == 4 + 3 && set[0].release == 2);
+    assert_true(set[1].node_count == 2 && set[1].nodes[0] == 1 && set[1].nodes[1] == 3 && set[1].release == 2.5);
+    assert_true(set[0].motion_count == 1 && set[1].motion_count == 1 && set[1].motions[0].velocity[1] == 1);
+    assert_true(set[2].node_count == 4 && isinf(set[2].release));
+    cipc_scene *t = accept_scene(s->resolved, NULL);
+    assert_true(t->model->dirichlet[1].release == 2.5 && t->model->dirichlet_count == 3);
+    cipc_scene_destroy(s);
+    cipc_scene_destroy(t);
+}
+
+static void test_rejections_of_several_bodies(void **state)
+{
+    (void)state;
+    reject_scene(TWO "\"dirichlet\": [{\"bodies\": [\"a\", @\"c\"], \"select\": {\"all\": true}}]}", NULL, CIPC_E_OUT_OF_RANGE, "dirichlet.0.bodies.1",
+                 "no body is called 'c'");
+    reject_scene(TWO "\"dirichlet\": [{@\"bodies\": [], \"select\": {\"all\": true}}]}", NULL, CIPC_E_OUT_OF_RANGE, "dirichlet.0.bodies", "at least 1");
+    reject_scene(TWO "\"dirichlet\": [@{\"bodies\": [\"a\"], \"body\": \"a\", \"select\": {\"all\": true}}]}", NULL, CIPC_E_OUT_OF_RANGE, "dirichlet.0",
+                 "has 2 of body, bodies");
+    reject_scene(TWO "\"dirichlet\": [{\"bodies\": [\"a\"], \"select\": {\"all\": true}, @\"release_interval\": 1}]}", NULL, CIPC_E_MISSING_KEY,
+                 "dirichlet.0.release_interval", "'release' is never");
+    reject_scene(TWO "\"dirichlet\": [{\"bodies\": [\"a\"], \"select\": {\"all\": true}, \"release\": 1, @\"release_interval\": -1}]}", NULL,
+                 CIPC_E_OUT_OF_RANGE, "dirichlet.0.release_interval", "at least 0");
+    reject_scene(TWO "\"dirichlet\": [{\"body\": \"a\", \"select\": {\"all\": true}, \"release\": 1, @\"release_interval\": 1}]}", NULL, CIPC_E_MISSING_KEY,
+                 "dirichlet.0.release_interval", "there is no 'bodies'");
+    reject_scene(TWO "\"dirichlet\": [{\"bodies\": [\"a\"], \"select\": {\"all\": true}, @\"track\": {}}]}", NULL, CIPC_E_OUT_OF_RANGE,
+                 "dirichlet.0.track", "which 'body' must name");
+    reject_scene(TWO "\"dirichlet\": [{\"body\": \"a\", \"select\": {\"all\": true}, \"motion\": [{}], @\"track\": {}}]}", NULL, CIPC_E_OUT_OF_RANGE,
+                 "dirichlet.0.track", "cannot stand beside motion");
+}
+
+/* The box of the bodies so far is that of the bodies that the scene lists up to this one. */
+static void test_boxes_of_bodies_so_far(void **state)
+{
+    (void)state;
+    cipc_scene *s = accept_scene(
+        TWO "\"dirichlet\": [{\"body\": \"a\", \"select\": {\"box\": {\"min\": [0, 1, 0], \"relative_to\": \"so-far\"}}}, "
+            "{\"body\": \"b\", \"select\": {\"box\": {\"min\": [0, 1, 0], \"max\": [0, 1, 1], \"relative_to\": \"scene\"}}}]}",
+        NULL);
+    assert_int_equal(s->model->dirichlet[0].node_count, 4); /* a alone is flat */
+    assert_int_equal(s->model->dirichlet[1].node_count, 2);
+    cipc_scene_destroy(s);
+    reject_scene(TWO "\"dirichlet\": [{\"body\": \"a\", @\"select\": {\"box\": {\"min\": [0, 1, 0], \"relative_to\": \"scene\"}}}]}", NULL,
+                 CIPC_E_OUT_OF_RANGE, "dirichlet.0.select", "selects none");
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_friction_of_pairs),     cmocka_unit_test(test_friction_rejections),  cmocka_unit_test(test_sets_and_motions),
-        cmocka_unit_test(test_nodes_of_a_later_body), cmocka_unit_test(test_dirichlet_rejections),
+        cmocka_unit_test(test_sets_and_motions),       cmocka_unit_test(test_nodes_of_a_later_body),
+        cmocka_unit_test(test_sets_of_several_bodies), cmocka_unit_test(test_boxes_of_bodies_so_far),
+        cmocka_unit_test(test_dirichlet_rejections),   cmocka_unit_test(test_rejections_of_several_bodies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
