@@ -47,24 +47,24 @@ static void no_memory(gmsh *g)
 
 static void read_format(gmsh *g)
 {
-    double version = token_number(&g->r, "a version");
-    long long binary = token_integer(&g->r, "the file type", 0, 1);
+    double version = scene_token_number(&g->r, "a version");
+    long long binary = scene_token_integer(&g->r, "the file type", 0, 1);
     if (g->r.status != CIPC_OK) return;
-    if (binary != 0) token_reject(&g->r, "a binary file is not read: save it as ASCII");
-    if (version != 2.2 && version != 4.1) token_reject(&g->r, "version %g is not read; 2.2 and 4.1 are", version);
+    if (binary != 0) scene_token_reject(&g->r, "a binary file is not read: save it as ASCII");
+    if (version != 2.2 && version != 4.1) scene_token_reject(&g->r, "version %g is not read; 2.2 and 4.1 are", version);
     g->version4 = version == 4.1;
-    (void)token_integer(&g->r, "the size of a number", 1, 64);
+    (void)scene_token_integer(&g->r, "the size of a number", 1, 64);
 }
 
 /* Room for so many nodes: not more than the text can hold, a node being four words. */
 static bool reserve_nodes(gmsh *g, long long count)
 {
     if (g->nodes != NULL) {
-        token_reject(&g->r, "a second section of nodes");
+        scene_token_reject(&g->r, "a second section of nodes");
         return false;
     }
     if (count > (long long)strlen(g->r.at) / 8 + 1) {
-        token_reject(&g->r, "%lld nodes are announced, more than the file holds", count);
+        scene_token_reject(&g->r, "%lld nodes are announced, more than the file holds", count);
         return false;
     }
     g->nodes = cipc_alloc(3 * (size_t)count, sizeof *g->nodes);
@@ -75,15 +75,15 @@ static bool reserve_nodes(gmsh *g, long long count)
 
 static void read_coordinates(gmsh *g, int node)
 {
-    for (int k = 0; k < 3; k++) g->nodes[3 * (size_t)node + (size_t)k] = token_number(&g->r, "a coordinate");
+    for (int k = 0; k < 3; k++) g->nodes[3 * (size_t)node + (size_t)k] = scene_token_number(&g->r, "a coordinate");
 }
 
 static void read_nodes2(gmsh *g)
 {
-    long long count = token_integer(&g->r, "the number of nodes", 1, SCENE_NODES_MAX);
+    long long count = scene_token_integer(&g->r, "the number of nodes", 1, SCENE_NODES_MAX);
     if (g->r.status != CIPC_OK || !reserve_nodes(g, count)) return;
     for (; g->node_count < count && g->r.status == CIPC_OK; g->node_count++) {
-        g->tags[g->node_count] = (tagged){token_integer(&g->r, "a node's number", 1, LLONG_MAX), g->node_count};
+        g->tags[g->node_count] = (tagged){scene_token_integer(&g->r, "a node's number", 1, LLONG_MAX), g->node_count};
         read_coordinates(g, g->node_count);
     }
 }
@@ -91,25 +91,25 @@ static void read_nodes2(gmsh *g)
 /* Blocks: first the numbers of their nodes, then the coordinates. */
 static void read_nodes4(gmsh *g)
 {
-    long long blocks = token_integer(&g->r, "the number of blocks", 1, SCENE_NODES_MAX), count = token_integer(&g->r, "the number of nodes", 1, SCENE_NODES_MAX);
-    for (int i = 0; i < 2; i++) (void)token_integer(&g->r, "a node's number", 0, LLONG_MAX);
+    long long blocks = scene_token_integer(&g->r, "the number of blocks", 1, SCENE_NODES_MAX), count = scene_token_integer(&g->r, "the number of nodes", 1, SCENE_NODES_MAX);
+    for (int i = 0; i < 2; i++) (void)scene_token_integer(&g->r, "a node's number", 0, LLONG_MAX);
     if (g->r.status != CIPC_OK || !reserve_nodes(g, count)) return;
     for (long long b = 0; b < blocks && g->r.status == CIPC_OK; b++) {
-        for (int i = 0; i < 2; i++) (void)token_integer(&g->r, "an entity", 0, INT_MAX);
-        long long parametric = token_integer(&g->r, "whether nodes are parametric", 0, 1), nodes = token_integer(&g->r, "the number of nodes of a block", 0, count - g->node_count);
-        if (parametric != 0) token_reject(&g->r, "parametric nodes are not read");
+        for (int i = 0; i < 2; i++) (void)scene_token_integer(&g->r, "an entity", 0, INT_MAX);
+        long long parametric = scene_token_integer(&g->r, "whether nodes are parametric", 0, 1), nodes = scene_token_integer(&g->r, "the number of nodes of a block", 0, count - g->node_count);
+        if (parametric != 0) scene_token_reject(&g->r, "parametric nodes are not read");
         for (long long i = 0; i < nodes && g->r.status == CIPC_OK; i++)
-            g->tags[g->node_count + i] = (tagged){token_integer(&g->r, "a node's number", 1, LLONG_MAX), g->node_count + (int)i};
+            g->tags[g->node_count + i] = (tagged){scene_token_integer(&g->r, "a node's number", 1, LLONG_MAX), g->node_count + (int)i};
         for (long long i = 0; i < nodes && g->r.status == CIPC_OK; i++, g->node_count++) read_coordinates(g, g->node_count);
     }
-    if (g->r.status == CIPC_OK && g->node_count < count) token_reject(&g->r, "%lld nodes are announced, %d are given", count, g->node_count);
+    if (g->r.status == CIPC_OK && g->node_count < count) scene_token_reject(&g->r, "%lld nodes are announced, %d are given", count, g->node_count);
 }
 
 static void sort_tags(gmsh *g)
 {
     qsort(g->tags, (size_t)g->node_count, sizeof *g->tags, compare_tags);
     for (int i = 1; i < g->node_count && g->r.status == CIPC_OK; i++) {
-        if (g->tags[i].tag == g->tags[i - 1].tag) token_reject(&g->r, "node %lld is given twice", g->tags[i].tag);
+        if (g->tags[i].tag == g->tags[i - 1].tag) scene_token_reject(&g->r, "node %lld is given twice", g->tags[i].tag);
     }
 }
 
@@ -127,9 +127,9 @@ static void read_element(gmsh *g, bool wanted, int nodes)
         g->element_capacity = capacity;
     }
     for (int k = 0; k < nodes && g->r.status == CIPC_OK; k++) {
-        const tagged key = {token_integer(&g->r, "a node's number", 1, LLONG_MAX), 0};
+        const tagged key = {scene_token_integer(&g->r, "a node's number", 1, LLONG_MAX), 0};
         const tagged *found = bsearch(&key, g->tags, (size_t)g->node_count, sizeof *g->tags, compare_tags);
-        if (found == NULL) token_reject(&g->r, "an element names node %lld, which is not in the file", key.tag);
+        if (found == NULL) scene_token_reject(&g->r, "an element names node %lld, which is not in the file", key.tag);
         else if (wanted) g->elements[(size_t)nodes * (size_t)g->element_count + (size_t)k] = found->node;
     }
     g->element_count += wanted;
@@ -137,30 +137,30 @@ static void read_element(gmsh *g, bool wanted, int nodes)
 
 static bool known_type(gmsh *g, long long type)
 {
-    if (nodes_of_type(type) == 0 && g->r.status == CIPC_OK) token_reject(&g->r, "elements of type %lld are not read", type);
+    if (nodes_of_type(type) == 0 && g->r.status == CIPC_OK) scene_token_reject(&g->r, "elements of type %lld are not read", type);
     return g->r.status == CIPC_OK;
 }
 
 static void read_elements2(gmsh *g)
 {
-    long long count = token_integer(&g->r, "the number of elements", 0, SCENE_TRIANGLES_MAX);
+    long long count = scene_token_integer(&g->r, "the number of elements", 0, SCENE_TRIANGLES_MAX);
     for (long long i = 0; i < count && g->r.status == CIPC_OK; i++) {
-        (void)token_integer(&g->r, "an element's number", 1, LLONG_MAX);
-        long long type = token_integer(&g->r, "an element's type", 1, 200), tags = token_integer(&g->r, "the number of tags", 0, 1000);
-        for (long long k = 0; k < tags && g->r.status == CIPC_OK; k++) (void)token_integer(&g->r, "a tag", LLONG_MIN, LLONG_MAX);
+        (void)scene_token_integer(&g->r, "an element's number", 1, LLONG_MAX);
+        long long type = scene_token_integer(&g->r, "an element's type", 1, 200), tags = scene_token_integer(&g->r, "the number of tags", 0, 1000);
+        for (long long k = 0; k < tags && g->r.status == CIPC_OK; k++) (void)scene_token_integer(&g->r, "a tag", LLONG_MIN, LLONG_MAX);
         if (known_type(g, type)) read_element(g, type == type_of_kind(g->kind), nodes_of_type(type));
     }
 }
 
 static void read_elements4(gmsh *g)
 {
-    long long blocks = token_integer(&g->r, "the number of blocks", 0, SCENE_TRIANGLES_MAX), count = token_integer(&g->r, "the number of elements", 0, SCENE_TRIANGLES_MAX);
-    for (int i = 0; i < 2; i++) (void)token_integer(&g->r, "an element's number", 0, LLONG_MAX);
+    long long blocks = scene_token_integer(&g->r, "the number of blocks", 0, SCENE_TRIANGLES_MAX), count = scene_token_integer(&g->r, "the number of elements", 0, SCENE_TRIANGLES_MAX);
+    for (int i = 0; i < 2; i++) (void)scene_token_integer(&g->r, "an element's number", 0, LLONG_MAX);
     for (long long b = 0; b < blocks && g->r.status == CIPC_OK; b++) {
-        for (int i = 0; i < 2; i++) (void)token_integer(&g->r, "an entity", 0, INT_MAX);
-        long long type = token_integer(&g->r, "an element's type", 1, 200), elements = token_integer(&g->r, "the number of elements of a block", 0, count);
+        for (int i = 0; i < 2; i++) (void)scene_token_integer(&g->r, "an entity", 0, INT_MAX);
+        long long type = scene_token_integer(&g->r, "an element's type", 1, 200), elements = scene_token_integer(&g->r, "the number of elements of a block", 0, count);
         for (long long i = 0; known_type(g, type) && i < elements; i++) {
-            (void)token_integer(&g->r, "an element's number", 1, LLONG_MAX);
+            (void)scene_token_integer(&g->r, "an element's number", 1, LLONG_MAX);
             read_element(g, type == type_of_kind(g->kind), nodes_of_type(type));
         }
     }
@@ -169,21 +169,21 @@ static void read_elements4(gmsh *g)
 static void read_sections(gmsh *g)
 {
     bool format = false;
-    while (token_next(&g->r)) {
-        if (token_is(&g->r, "$MeshFormat")) {
+    while (scene_token_next(&g->r)) {
+        if (scene_token_is(&g->r, "$MeshFormat")) {
             read_format(g);
             format = true;
         } else if (*g->r.word == '$' && !format) {
-            token_reject(&g->r, "the file does not begin with $MeshFormat");
-        } else if (token_is(&g->r, "$Nodes")) {
+            scene_token_reject(&g->r, "the file does not begin with $MeshFormat");
+        } else if (scene_token_is(&g->r, "$Nodes")) {
             if (g->version4) read_nodes4(g);
             else read_nodes2(g);
             if (g->r.status == CIPC_OK) sort_tags(g);
-        } else if (token_is(&g->r, "$Elements")) {
+        } else if (scene_token_is(&g->r, "$Elements")) {
             if (g->version4) read_elements4(g);
             else read_elements2(g);
         } else if (!format) {
-            token_reject(&g->r, "not a Gmsh file: it does not begin with $MeshFormat");
+            scene_token_reject(&g->r, "not a Gmsh file: it does not begin with $MeshFormat");
         }
     }
 }
@@ -191,10 +191,10 @@ static void read_sections(gmsh *g)
 static cipc_status finish(gmsh *g, cipc_mesh *mesh)
 {
     if (g->r.status != CIPC_OK) return g->r.status;
-    if (g->node_count == 0) return token_reject(&g->r, "the file ends without nodes");
+    if (g->node_count == 0) return scene_token_reject(&g->r, "the file ends without nodes");
     if (g->element_count == 0 && g->kind != CIPC_MESH_NODES) {
         static const char *const names[] = {"triangles", "lines", "points", "tetrahedra"};
-        return token_reject(&g->r, "the file has no %s", names[g->kind]);
+        return scene_token_reject(&g->r, "the file has no %s", names[g->kind]);
     }
     bool nodes_only = g->kind == CIPC_MESH_NODES;
     cipc_status status = scene_mesh_allocate_kind(mesh, g->kind, g->node_count, nodes_only ? 0 : g->element_count, g->r.path, g->r.error);
@@ -209,12 +209,12 @@ cipc_status scene_mesh_read_gmsh(cipc_mesh *mesh, const char *path, cipc_mesh_ki
 {
     *mesh = (cipc_mesh){0};
     gmsh g = {.kind = kind};
-    cipc_status status = token_reader_open(&g.r, path, error);
+    cipc_status status = scene_token_reader_open(&g.r, path, error);
     if (status == CIPC_OK) {
         read_sections(&g);
         status = finish(&g, mesh);
     }
-    token_reader_close(&g.r);
+    scene_token_reader_close(&g.r);
     cipc_free(g.nodes);
     cipc_free(g.tags);
     cipc_free(g.elements);

@@ -13,7 +13,7 @@
 
 enum { SHOWN = 40 }; /* of a word in a message */
 
-cipc_status token_reject(token_reader *r, const char *format, ...)
+cipc_status scene_token_reject(token_reader *r, const char *format, ...)
 {
     char place[sizeof r->error->place], what[256];
     if (r->status != CIPC_OK) return r->status;
@@ -27,7 +27,7 @@ cipc_status token_reject(token_reader *r, const char *format, ...)
     return r->status;
 }
 
-cipc_status token_reader_open(token_reader *r, const char *path, cipc_error *error)
+cipc_status scene_token_reader_open(token_reader *r, const char *path, cipc_error *error)
 {
     size_t length = 0;
     *r = (token_reader){.path = path, .line = 1, .word = ""};
@@ -35,17 +35,17 @@ cipc_status token_reader_open(token_reader *r, const char *path, cipc_error *err
     r->status = scene_read_text(path, &r->text, &length, r->error);
     if (r->status != CIPC_OK) return r->status;
     r->at = r->text;
-    if (strlen(r->text) != length) return token_reject(r, "a binary file is not read: save it as ASCII");
+    if (strlen(r->text) != length) return scene_token_reject(r, "a binary file is not read: save it as ASCII");
     return CIPC_OK;
 }
 
-void token_reader_close(token_reader *r)
+void scene_token_reader_close(token_reader *r)
 {
     cipc_free(r->text);
     r->text = NULL;
 }
 
-bool token_next(token_reader *r)
+bool scene_token_next(token_reader *r)
 {
     if (r->status != CIPC_OK) return false;
     for (; isspace((unsigned char)*r->at); r->at++) r->line += *r->at == '\n';
@@ -55,9 +55,9 @@ bool token_next(token_reader *r)
     return r->length > 0;
 }
 
-bool token_is(const token_reader *r, const char *word) { return (size_t)r->length == strlen(word) && memcmp(r->word, word, (size_t)r->length) == 0; }
+bool scene_token_is(const token_reader *r, const char *word) { return (size_t)r->length == strlen(word) && memcmp(r->word, word, (size_t)r->length) == 0; }
 
-void token_skip_line(token_reader *r)
+void scene_token_skip_line(token_reader *r)
 {
     if (r->status != CIPC_OK) return;
     while (*r->at != '\0' && *r->at != '\n') r->at++;
@@ -66,14 +66,14 @@ void token_skip_line(token_reader *r)
 static bool next_of(token_reader *r, const char *what)
 {
     if (r->status != CIPC_OK) return false;
-    if (token_next(r)) return true;
-    token_reject(r, "the file ends where %s should be", what);
+    if (scene_token_next(r)) return true;
+    scene_token_reject(r, "the file ends where %s should be", what);
     return false;
 }
 
-static void reject_word(token_reader *r, const char *what) { token_reject(r, "'%.*s' is not %s", r->length < SHOWN ? r->length : SHOWN, r->word, what); }
+static void reject_word(token_reader *r, const char *what) { scene_token_reject(r, "'%.*s' is not %s", r->length < SHOWN ? r->length : SHOWN, r->word, what); }
 
-double token_number(token_reader *r, const char *what)
+double scene_token_number(token_reader *r, const char *what)
 {
     char *end;
     if (!next_of(r, what)) return 0;
@@ -83,14 +83,14 @@ double token_number(token_reader *r, const char *what)
     return 0;
 }
 
-long long token_integer(token_reader *r, const char *what, long long lower, long long upper)
+long long scene_token_integer(token_reader *r, const char *what, long long lower, long long upper)
 {
     char *end;
     if (!next_of(r, what)) return lower;
     errno = 0;
     long long value = strtoll(r->word, &end, 10);
     if (end == r->at && errno == 0 && value >= lower && value <= upper) return value;
-    if (end == r->at) token_reject(r, "%s is %.*s, but must be between %lld and %lld", what, r->length < SHOWN ? r->length : SHOWN, r->word, lower, upper);
+    if (end == r->at) scene_token_reject(r, "%s is %.*s, but must be between %lld and %lld", what, r->length < SHOWN ? r->length : SHOWN, r->word, lower, upper);
     else reject_word(r, what);
     return lower;
 }

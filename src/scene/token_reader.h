@@ -17,20 +17,20 @@ typedef struct token_reader {
     cipc_error *error, own;
 } token_reader;
 
-/* Read the file. Call token_reader_close in any case. */
-cipc_status token_reader_open(token_reader *r, const char *path, cipc_error *error);
-void token_reader_close(token_reader *r);
+/* Read the file. Call scene_token_reader_close in any case. */
+cipc_status scene_token_reader_open(token_reader *r, const char *path, cipc_error *error);
+void scene_token_reader_close(token_reader *r);
 
 /* The next word; false at the end of the file (no error) or after an error. */
-bool token_next(token_reader *r);
-bool token_is(const token_reader *r, const char *word);
+bool scene_token_next(token_reader *r);
+bool scene_token_is(const token_reader *r, const char *word);
 /* Skip to the next line. */
-void token_skip_line(token_reader *r);
+void scene_token_skip_line(token_reader *r);
 /* The next word as a finite number, or as an integer in [lower, upper]; 0 and an error if it is none. `what` is named in the message. */
-double token_number(token_reader *r, const char *what);
-long long token_integer(token_reader *r, const char *what, long long lower, long long upper);
+double scene_token_number(token_reader *r, const char *what);
+long long scene_token_integer(token_reader *r, const char *what, long long lower, long long upper);
 /* An error at the present line. */
-cipc_status token_reject(token_reader *r, const char *format, ...)
+cipc_status scene_token_reject(token_reader *r, const char *format, ...)
 #if defined(__GNUC__)
     __attribute__((format(printf, 2, 3)))
 #endif
