@@ -56,7 +56,7 @@ TEST_SUPPORT := $(BUILD)/obj/libsupport.a
 TESTS := $(patsubst %.c,$(BUILD)/%,$(TEST_SOURCES))
 
 # ---- Targets for people -----------------------------------------------------------------------------------------------------
-.PHONY: help all deps deps-all demo check verify mutants coverage sanitize valgrind lint bench format install uninstall clean
+.PHONY: help all deps deps-all demo check verify validation mutants coverage sanitize valgrind lint bench format install uninstall clean
 .DEFAULT_GOAL := all
 
 # A plain `make check` uses every core; an explicit -j is respected.
@@ -94,6 +94,13 @@ verify: ## the functions of the solver against exact and MPFR arithmetic: a larg
 	$(SUBMAKE) all
 	$(BUILD)/cipc verify all --samples $(SAMPLES) --seed $(SEED) --threads $(shell nproc 2>/dev/null || echo 1) --json $(BUILD)/verify.json \
 	    --worst $(BUILD)/verify-worst.jsonl $(if $(PUBLIC_QUERIES),--data $(PUBLIC_QUERIES))
+
+VALIDATION_TESTS := rods shells volumes
+validation: ## closed forms of physics: run their tests and write the table of docs/validation.md
+	$(SUBMAKE) all $(VALIDATION_TESTS:%=$(BUILD)/tests/scenes/test_%)
+	@rm -f $(BUILD)/validation.tsv
+	@for t in $(VALIDATION_TESTS); do CIPC_VALIDATION=$(BUILD)/validation.tsv $(BUILD)/tests/scenes/test_$$t >/dev/null 2>$(BUILD)/validation.log || { cat $(BUILD)/validation.log; exit 1; }; done
+	@ci/validation $(BUILD)/validation.tsv docs/validation.md
 
 mutants: ## plant every fault of ci/mutants.list and see the named check reject it; docs/mutants.md
 	$(SUBMAKE) all tests
