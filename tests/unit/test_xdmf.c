@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "cipc/output.h"
-#include "support/sample_run.h"
+#include "support/every_kind.h"
 
 /* Tags open and close in order; attribute values are quoted; no stray '<' or '&'. Enough of a parser for what we write. */
 static void assert_well_formed(const char *text)
@@ -76,35 +76,83 @@ static int check_references(const char *text, const path *h5)
     return references;
 }
 
-static void test_every_reference_is_good(void **state)
+enum { FRAMES = 3 };
+
+/* The text of the XDMF file of a trajectory of FRAMES frames (malloc'd), its references held against the datasets; how many there are
+ * goes to *references. */
+static char *write_both(sample_run *run, double times[FRAMES], int *references)
 {
-    (void)state;
-    enum { FRAMES = 3 };
     cipc_error error;
     const path folder = folder_make(), h5 = path_in(&folder, "t.h5"), xdmf = path_in(&folder, "t.xdmf");
-    sample_run run = sample_run_create();
     cipc_trajectory *t;
-    double times[FRAMES];
-    assert_int_equal(cipc_trajectory_create(&t, h5.text, run.model, run.state, "{}", FRAMES, &error), CIPC_OK);
+    assert_int_equal(cipc_trajectory_create(&t, h5.text, run->model, run->state, "{}", FRAMES, &error), CIPC_OK);
     for (int i = 1; i < FRAMES; i++) {
-        sample_run_advance(&run);
-        assert_int_equal(cipc_trajectory_append(t, run.state, &error), CIPC_OK);
+        sample_run_advance(run);
+        assert_int_equal(cipc_trajectory_append(t, run->state, &error), CIPC_OK);
     }
     assert_int_equal(cipc_trajectory_close(t, &error), CIPC_OK);
     assert_int_equal(cipc_trajectory_times(h5.text, times, FRAMES, &error), CIPC_OK);
-    assert_int_equal(cipc_xdmf_write(xdmf.text, "t.h5", run.model, FRAMES, times, &error), CIPC_OK);
-
+    assert_int_equal(cipc_xdmf_write(xdmf.text, "t.h5", run->model, FRAMES, times, &error), CIPC_OK);
     char *text = file_read(&xdmf, NULL);
     assert_well_formed(text);
     assert_int_equal(count(text, "<Time "), FRAMES);
-    assert_int_equal(check_references(text, &h5), 4 * FRAMES); /* triangles, positions, velocities, bodies */
+    *references = check_references(text, &h5);
+    folder_remove(&folder);
+    return text;
+}
+
+static void test_every_reference_is_good(void **state)
+{
+    (void)state;
+    double times[FRAMES];
+    int references;
+    sample_run run = sample_run_create();
+    char *text = write_both(&run, times, &references);
+    assert_int_equal(references, 4 * FRAMES); /* triangles, positions, velocities, bodies of nodes */
     char last[64];
     snprintf(last, sizeof last, "<Time Value=\"%.17g\"/>", times[FRAMES - 1]);
     assert_non_null(strstr(text, last));
     assert_non_null(strstr(text, ">2 0 0  1 1 1  1 13 3<")); /* the slab of frame 2: start, stride, count */
     free(text);
     sample_run_destroy(&run);
-    folder_remove(&folder);
+}
+
+static void test_every_sort_is_a_block(void **state)
+{
+    (void)state;
+    double times[FRAMES];
+    int references;
+    sample_run run = every_kind_create_all();
+    char *text = write_both(&run, times, &references);
+    assert_int_equal(references, 3 * 4 * FRAMES);
+    assert_int_equal(count(text, "CollectionType=\"Spatial\""), FRAMES);
+    /* 2 triangles of the cloth, 4 around the tetrahedron; 3 segments of the strand, 2 needles */
+    assert_int_equal(count(text, "TopologyType=\"Triangle\" NumberOfElements=\"6\""), FRAMES);
+    assert_int_equal(count(text, "TopologyType=\"Polyline\" NodesPerElement=\"2\" NumberOfElements=\"5\""), FRAMES);
+    assert_int_equal(count(text, "TopologyType=\"Polyvertex\" NodesPerElement=\"1\" NumberOfElements=\"3\""), FRAMES);
+    free(text);
+    sample_run_destroy(&run);
+}
+
+/* What the model does not have is not there: ParaView takes a grid without cells for an error. */
+static void test_a_sort_alone_is_the_frame(void **state)
+{
+    (void)state;
+    static const struct { cipc_body_kind kind; const char *topology; } cases[] = {
+        {CIPC_BODY_SHELL, "Triangle"}, {CIPC_BODY_RODS, "Polyline"}, {CIPC_BODY_PARTICLES, "Polyvertex"}, {CIPC_BODY_VOLUME, "Triangle"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double times[FRAMES];
+        int references;
+        sample_run run = every_kind_create(&cases[i].kind, 1, false);
+        char *text = write_both(&run, times, &references), topology[64];
+        snprintf(topology, sizeof topology, "<Topology TopologyType=\"%s\"", cases[i].topology);
+        assert_int_equal(references, 4 * FRAMES);
+        assert_int_equal(count(text, topology), FRAMES);
+        assert_int_equal(count(text, "<Topology"), FRAMES);
+        assert_int_equal(count(text, "Spatial"), 0);
+        free(text);
+        sample_run_destroy(&run);
+    }
 }
 
 static void test_awkward_names_and_no_frames(void **state)
@@ -132,6 +180,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_reference_is_good),
+        cmocka_unit_test(test_every_sort_is_a_block),
+        cmocka_unit_test(test_a_sort_alone_is_the_frame),
         cmocka_unit_test(test_awkward_names_and_no_frames),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
