@@ -34,16 +34,23 @@ static void write_item(FILE *out, const char *h5_name, const char *path, const c
     fprintf(out, ":%s</DataItem>\n", path);
 }
 
-/* Frame `frame` of a dataset [frames][nodes][3]: start, stride and count of the slab, then the dataset as a whole. */
+/* Frame `frame` of a dataset [frames][nodes][3]. ParaView has two libraries for XDMF, and no one way to name a slab serves both: the older (its
+ * "XDMF Reader") knows the item HyperSlab, the newer ("Xdmf3 Reader") passes over it where geometry is wanted, but takes a selection
+ * start:stride:count:extents behind the dataset's name. The item here is both. The newer library compares words to the letter, so it sees
+ * an HDF item with a selection; the older folds case, so it sees a function that returns its argument, the slab. */
 static void write_slab(FILE *out, const char *h5_name, const char *dataset, int frame, int frame_count, int node_count)
 {
-    fprintf(out, "          <DataItem ItemType=\"HyperSlab\" Dimensions=\"%d 3\">\n", node_count);
-    fprintf(out, "            <DataItem Format=\"XML\" NumberType=\"Int\" Dimensions=\"3 3\">%d 0 0  1 1 1  1 %d 3</DataItem>\n", frame,
-            node_count);
-    fprintf(out, "            <DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" Dimensions=\"%d %d 3\">", frame_count,
-            node_count);
+    fputs("          <DataItem ItemType=\"function\" Function=\"$0\" Format=\"HDF\" ", out);
+    fprintf(out, "NumberType=\"Float\" Precision=\"8\" Dimensions=\"%d 3\">", node_count);
     write_escaped(out, h5_name);
-    fprintf(out, ":/%s</DataItem>\n          </DataItem>\n", dataset);
+    fprintf(out, ":/%s|%d 0 0:1 1 1:1 %d 3:%d %d 3\n", dataset, frame, node_count, frame_count, node_count);
+    fprintf(out, "            <DataItem ItemType=\"HyperSlab\" Dimensions=\"%d 3\">\n", node_count);
+    fputs("              <DataItem Format=\"XML\" NumberType=\"Int\" Dimensions=\"3 3\">", out);
+    fprintf(out, "%d 0 0  1 1 1  1 %d 3</DataItem>\n", frame, node_count);
+    fputs("              <DataItem Format=\"HDF\" NumberType=\"Float\" Precision=\"8\" ", out);
+    fprintf(out, "Dimensions=\"%d %d 3\">", frame_count, node_count);
+    write_escaped(out, h5_name);
+    fprintf(out, ":/%s</DataItem>\n            </DataItem>\n          </DataItem>\n", dataset);
 }
 
 /* The cells of one sort: all elements of `nodes` nodes. */

@@ -51,22 +51,44 @@ static int count(const char *text, const char *word)
     return found;
 }
 
-/* Each <DataItem Format="HDF" ... Dimensions="a b c">t.h5:/path</DataItem>. Returns how many. */
+/* The selection start:stride:count:extents behind a dataset's name is one frame of [frames][nodes][3] with the extents claimed. */
+static void check_selection(const char *selection, const int claimed[3], const hsize_t dims[3])
+{
+    int start[3], stride[3], chosen[3], whole[3];
+    const int read = sscanf(selection, "|%d %d %d:%d %d %d:%d %d %d:%d %d %d\n", &start[0], &start[1], &start[2], &stride[0], &stride[1],
+                            &stride[2], &chosen[0], &chosen[1], &chosen[2], &whole[0], &whole[1], &whole[2]);
+    assert_int_equal(read, 12);
+    const int wanted[3] = {1, claimed[0], claimed[1]};
+    for (int i = 0; i < 3; i++) {
+        assert_int_equal(stride[i], 1);
+        assert_int_equal(chosen[i], wanted[i]);
+        assert_int_equal(whole[i], dims[i]);
+        assert_in_range(start[i], 0, whole[i] - chosen[i]);
+    }
+}
+
+/* Each Format="HDF" ... Dimensions="a b c">t.h5:/path, with a selection or without. Returns how many. */
 static int check_references(const char *text, const path *h5)
 {
     hid_t file = H5Fopen(h5->text, H5F_ACC_RDONLY, H5P_DEFAULT);
     int references = 0;
     for (const char *c = strstr(text, "Format=\"HDF\""); c != NULL; c = strstr(c + 1, "Format=\"HDF\"")) {
-        int claimed[3] = {0, 0, 0};
+        int claimed[3] = {0, 0, 0}, length = 0;
         char dataset[64];
         const char *dimensions = strstr(c, "Dimensions=\""), *content = strchr(c, '>');
         const int rank = sscanf(dimensions, "Dimensions=\"%d %d %d", &claimed[0], &claimed[1], &claimed[2]);
-        assert_int_equal(sscanf(content, ">t.h5:%63[^<]", dataset), 1);
+        assert_int_equal(sscanf(content, ">t.h5:%63[^<|]%n", dataset, &length), 1);
         hid_t data = H5Dopen(file, dataset, H5P_DEFAULT), space = H5Dget_space(data);
         hsize_t dims[3] = {0, 0, 0};
-        assert_int_equal(H5Sget_simple_extent_dims(space, dims, NULL), rank);
-        for (int i = 0; i < rank; i++) {
-            assert_int_equal(dims[i], claimed[i]);
+        const int rank_of_data = H5Sget_simple_extent_dims(space, dims, NULL);
+        if (content[length] == '|') {
+            assert_int_equal(rank_of_data, 3);
+            check_selection(content + length, claimed, dims);
+        } else {
+            assert_int_equal(rank_of_data, rank);
+            for (int i = 0; i < rank; i++) {
+                assert_int_equal(dims[i], claimed[i]);
+            }
         }
         H5Sclose(space);
         H5Dclose(data);
@@ -76,7 +98,8 @@ static int check_references(const char *text, const path *h5)
     return references;
 }
 
-enum { FRAMES = 3 };
+/* A grid refers to its cells, the bodies of nodes, and twice each to positions and velocities: once for each library that reads XDMF. */
+enum { FRAMES = 3, REFERENCES = 6 };
 
 /* The text of the XDMF file of a trajectory of FRAMES frames (malloc'd), its references held against the datasets; how many there are
  * goes to *references. */
@@ -108,11 +131,12 @@ static void test_every_reference_is_good(void **state)
     int references;
     sample_run run = sample_run_create();
     char *text = write_both(&run, times, &references);
-    assert_int_equal(references, 4 * FRAMES); /* triangles, positions, velocities, bodies of nodes */
+    assert_int_equal(references, REFERENCES * FRAMES);
     char last[64];
     snprintf(last, sizeof last, "<Time Value=\"%.17g\"/>", times[FRAMES - 1]);
     assert_non_null(strstr(text, last));
     assert_non_null(strstr(text, ">2 0 0  1 1 1  1 13 3<")); /* the slab of frame 2: start, stride, count */
+    assert_non_null(strstr(text, "/velocities|2 0 0:1 1 1:1 13 3:3 13 3\n"));
     free(text);
     sample_run_destroy(&run);
 }
@@ -124,7 +148,7 @@ static void test_every_sort_is_a_block(void **state)
     int references;
     sample_run run = every_kind_create_all();
     char *text = write_both(&run, times, &references);
-    assert_int_equal(references, 3 * 4 * FRAMES);
+    assert_int_equal(references, 3 * REFERENCES * FRAMES);
     assert_int_equal(count(text, "CollectionType=\"Spatial\""), FRAMES);
     /* 2 triangles of the cloth, 4 around the tetrahedron; 3 segments of the strand, 2 needles */
     assert_int_equal(count(text, "TopologyType=\"Triangle\" NumberOfElements=\"6\""), FRAMES);
@@ -146,7 +170,7 @@ static void test_a_sort_alone_is_the_frame(void **state)
         sample_run run = every_kind_create(&cases[i].kind, 1, false);
         char *text = write_both(&run, times, &references), topology[64];
         snprintf(topology, sizeof topology, "<Topology TopologyType=\"%s\"", cases[i].topology);
-        assert_int_equal(references, 4 * FRAMES);
+        assert_int_equal(references, REFERENCES * FRAMES);
         assert_int_equal(count(text, topology), FRAMES);
         assert_int_equal(count(text, "<Topology"), FRAMES);
         assert_int_equal(count(text, "Spatial"), 0);
