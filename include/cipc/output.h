@@ -23,7 +23,7 @@ cipc_status cipc_trajectory_create(cipc_trajectory **trajectory, const char *pat
                                    const char *scene_json, int room, cipc_error *error);
 
 /* Open to append after the last whole frame, which is read into *state (arrays of the model's node count). Errors: CIPC_E_MISSING_FILE;
- * CIPC_E_NOT_RESUMABLE if the file is damaged or belongs to another model or scene. Of the scene, members that do not change the
+ * CIPC_E_NOT_RESUMABLE if the file is damaged, of an older format, or belongs to another model or scene. Of the scene, members that do not change the
  * trajectory may differ: title, comment, size, sizes, steps, monitor, output. */
 cipc_status cipc_trajectory_resume(cipc_trajectory **trajectory, const char *path, const cipc_model *model, cipc_state *state,
                                    const char *scene_json, int room, cipc_error *error);
@@ -46,7 +46,7 @@ cipc_status cipc_trajectory_times(const char *path, double *times, int frame_cou
 cipc_status cipc_xdmf_write(const char *path, const char *h5_name, const cipc_model *model, int frame_count, const double *times,
                             cipc_error *error);
 
-/* Wavefront OBJ of a state, 17 significant digits, one group per body; written atomically. */
+/* Wavefront OBJ of a state, 17 significant digits, one group per body: faces, lines of segments, points of particles; written atomically. */
 cipc_status cipc_obj_write(const char *path, const cipc_model *model, const double *position, cipc_error *error);
 
 /* violation.json: which invariant broke where, and what the monitors reported of the point (report may be NULL). Written atomically. */

@@ -142,6 +142,20 @@ static cipc_status change_room(cipc_trajectory *t, int room, cipc_error *error)
     return publish(t, &made, good, error);
 }
 
+/* An older program wrote the frames of an older format, and its steps need not be ours to the last bit: to go on from them would make a run
+ * that nobody can repeat. */
+static cipc_status check_format(const cipc_trajectory *t, cipc_error *error)
+{
+    if (t->file.format == CIPC_TRAJECTORY_FORMAT) {
+        return CIPC_OK;
+    }
+    cipc_fail(error, CIPC_E_NOT_RESUMABLE, t->path,
+              "the trajectory is of format %d, of an older cipc; this one goes on from format %d only", t->file.format,
+              CIPC_TRAJECTORY_FORMAT);
+    cipc_fail_remedy(error, "go on with the cipc that wrote it (attribute cipc_version), or start without --resume");
+    return CIPC_E_NOT_RESUMABLE;
+}
+
 /* CIPC_OK if the open file is of this model and scene. */
 static cipc_status check_same_run(const cipc_trajectory *t, const cipc_model *model, const char *scene_json, cipc_error *error)
 {
@@ -184,7 +198,10 @@ static cipc_status open_to_resume(cipc_trajectory *t, const cipc_model *model, c
         }
         return cipc_fail(error, CIPC_E_NOT_RESUMABLE, t->path, "not a trajectory of cipc, or damaged");
     }
-    cipc_status status = check_same_run(t, model, scene_json, error);
+    cipc_status status = check_format(t, error);
+    if (status == CIPC_OK) {
+        status = check_same_run(t, model, scene_json, error);
+    }
     if (status == CIPC_OK) {
         status = read_last(t, state, error);
     }

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 static const struct { const char *name, *unit; bool integer; } scalars[CIPC_FRAME_SCALAR_COUNT] = {
@@ -11,6 +12,9 @@ static const struct { const char *name, *unit; bool integer; } scalars[CIPC_FRAM
     [CIPC_FRAME_BARRIER_STIFFNESS] = {"barrier_stiffness", "J/m^4", false},
     [CIPC_FRAME_STRAIN_STIFFNESS_FACTOR] = {"strain_stiffness_factor", "1", false},
 };
+
+/* The attribute `format` of the root: these words and a number. Since 2, /topology has segments, particles, node_body and kinds of bodies. */
+#define FORMAT "cipc trajectory"
 
 static bool write_text_attribute(hid_t object, const char *name, const char *text)
 {
@@ -98,7 +102,10 @@ bool cipc_trajectory_file_make(cipc_trajectory_file *f, const char *path, int no
     hid_t access = access_properties();
     f->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
     H5Pclose(access);
-    bool good = f->file >= 0 && write_text_attribute(f->file, "format", "cipc trajectory 1") &&
+    f->format = CIPC_TRAJECTORY_FORMAT;
+    char format[64];
+    snprintf(format, sizeof format, FORMAT " %d", f->format);
+    bool good = f->file >= 0 && write_text_attribute(f->file, "format", format) &&
                 write_text_attribute(f->file, "cipc_version", cipc_version());
     if (good) {
         const hsize_t dims[3] = {(hsize_t)room, (hsize_t)node_count, 3};
@@ -112,6 +119,21 @@ bool cipc_trajectory_file_make(cipc_trajectory_file *f, const char *path, int no
         good = f->scalar[i] >= 0;
     }
     return good;
+}
+
+/* The number behind the words; 0: another format, or none. */
+static int read_format(hid_t file)
+{
+    char text[64] = "";
+    int format = 0;
+    hid_t attribute = H5Aopen(file, "format", H5P_DEFAULT), type = H5Aget_type(attribute);
+    const bool fits = H5Tget_class(type) == H5T_STRING && !H5Tis_variable_str(type) && H5Tget_size(type) < sizeof text;
+    if (!fits || H5Aread(attribute, type, text) < 0 || sscanf(text, FORMAT " %d", &format) != 1) {
+        format = 0;
+    }
+    H5Tclose(type);
+    H5Aclose(attribute);
+    return format;
 }
 
 static hid_t open_dataset(hid_t file, const char *name)
@@ -170,13 +192,15 @@ bool cipc_trajectory_file_open(cipc_trajectory_file *f, const char *path, bool w
     if (f->file < 0) {
         return false;
     }
+    f->format = read_format(f->file);
     f->position = open_dataset(f->file, "positions");
     f->velocity = open_dataset(f->file, "velocities");
     f->frames = open_dataset(f->file, "frames");
     for (int i = 0; i < CIPC_FRAME_SCALAR_COUNT; i++) {
         f->scalar[i] = open_dataset(f->file, scalars[i].name);
     }
-    return f->position >= 0 && f->velocity >= 0 && f->frames >= 0 && read_extents(f);
+    return f->format >= 1 && f->format <= CIPC_TRAJECTORY_FORMAT && f->position >= 0 && f->velocity >= 0 && f->frames >= 0 &&
+           read_extents(f);
 }
 
 bool cipc_trajectory_file_close(cipc_trajectory_file *f)

@@ -20,14 +20,18 @@ typedef enum cipc_frame_scalar {
     CIPC_FRAME_SCALAR_COUNT
 } cipc_frame_scalar;
 
+/* Files of format 1 (of shells only; no segments, particles, node_body in /topology, no kinds of bodies) can be read, not appended to. */
+enum { CIPC_TRAJECTORY_FORMAT = 2 };
+
 typedef struct cipc_trajectory_file {
     hid_t file, position, velocity, scalar[CIPC_FRAME_SCALAR_COUNT], frames;
+    int format;      /* its number: 1 .. CIPC_TRAJECTORY_FORMAT */
     int node_count;
     int frame_count; /* whole frames */
     int room;        /* frames that the datasets have room for */
 } cipc_trajectory_file;
 
-#define CIPC_TRAJECTORY_FILE_CLOSED ((cipc_trajectory_file){-1, -1, -1, {-1, -1, -1, -1}, -1, 0, 0, 0})
+#define CIPC_TRAJECTORY_FILE_CLOSED ((cipc_trajectory_file){-1, -1, -1, {-1, -1, -1, -1}, -1, 0, 0, 0, 0})
 
 /* A new file of empty datasets; no frames yet. */
 bool cipc_trajectory_file_make(cipc_trajectory_file *f, const char *path, int node_count, int room);
@@ -46,7 +50,7 @@ bool cipc_trajectory_file_times(const cipc_trajectory_file *f, int count, double
 /* The parts that never change: /topology and /scene. */
 bool cipc_trajectory_topology_write(hid_t file, const cipc_model *model, const char *scene_json);
 bool cipc_trajectory_topology_copy(hid_t from, hid_t to);
-/* Are triangles, edges, bodies and rest shape those of the model, to the bit? */
+/* Are the elements, bodies and rest shape those of the model, to the bit? */
 bool cipc_trajectory_topology_matches(hid_t file, const cipc_model *model);
 /* The text of /scene, a block of cipc_alloc; NULL: not there, or out of memory. */
 char *cipc_trajectory_scene_read(hid_t file);

@@ -1,4 +1,5 @@
 /* The parts of a trajectory file that never change: the mesh, the bodies and the scene. */
+#include "output/particles.h"
 #include "output/trajectory_file.h"
 
 #include <stddef.h>
@@ -8,24 +9,48 @@
 /* A row of /topology/bodies. */
 typedef struct body_row {
     char name[CIPC_NAME_SIZE];
-    int32_t first_node, node_count, first_triangle, triangle_count, fixed;
+    int32_t kind, first_node, node_count, first_triangle, triangle_count, first_segment, segment_count;
+    int32_t first_tetrahedron, tetrahedron_count, fixed;
     double offset, thickness, strain_limit;
 } body_row;
 
+/* A kind is a number with a name, so that whoever reads the file needs no table of ours. */
+static hid_t kind_type(void)
+{
+    static const struct { const char *name; int32_t value; } kinds[] = {
+        {"shell", CIPC_BODY_SHELL}, {"rods", CIPC_BODY_RODS}, {"particles", CIPC_BODY_PARTICLES}, {"volume", CIPC_BODY_VOLUME}};
+    hid_t type = H5Tenum_create(H5T_NATIVE_INT32);
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++) {
+        H5Tenum_insert(type, kinds[i].name, &kinds[i].value);
+    }
+    return type;
+}
+
 static hid_t body_row_type(void)
 {
-    hid_t row = H5Tcreate(H5T_COMPOUND, sizeof(body_row)), name = H5Tcopy(H5T_C_S1);
+    static const struct { const char *name; size_t offset; } integers[] = {
+        {"first_node", offsetof(body_row, first_node)},
+        {"node_count", offsetof(body_row, node_count)},
+        {"first_triangle", offsetof(body_row, first_triangle)},
+        {"triangle_count", offsetof(body_row, triangle_count)},
+        {"first_segment", offsetof(body_row, first_segment)},
+        {"segment_count", offsetof(body_row, segment_count)},
+        {"first_tetrahedron", offsetof(body_row, first_tetrahedron)},
+        {"tetrahedron_count", offsetof(body_row, tetrahedron_count)},
+        {"fixed", offsetof(body_row, fixed)},
+    };
+    hid_t row = H5Tcreate(H5T_COMPOUND, sizeof(body_row)), name = H5Tcopy(H5T_C_S1), kind = kind_type();
     H5Tset_size(name, CIPC_NAME_SIZE);
     H5Tset_cset(name, H5T_CSET_UTF8);
     H5Tinsert(row, "name", offsetof(body_row, name), name);
-    H5Tinsert(row, "first_node", offsetof(body_row, first_node), H5T_NATIVE_INT32);
-    H5Tinsert(row, "node_count", offsetof(body_row, node_count), H5T_NATIVE_INT32);
-    H5Tinsert(row, "first_triangle", offsetof(body_row, first_triangle), H5T_NATIVE_INT32);
-    H5Tinsert(row, "triangle_count", offsetof(body_row, triangle_count), H5T_NATIVE_INT32);
-    H5Tinsert(row, "fixed", offsetof(body_row, fixed), H5T_NATIVE_INT32);
+    H5Tinsert(row, "kind", offsetof(body_row, kind), kind);
+    for (size_t i = 0; i < sizeof integers / sizeof integers[0]; i++) {
+        H5Tinsert(row, integers[i].name, integers[i].offset, H5T_NATIVE_INT32);
+    }
     H5Tinsert(row, "offset", offsetof(body_row, offset), H5T_NATIVE_DOUBLE);
     H5Tinsert(row, "thickness", offsetof(body_row, thickness), H5T_NATIVE_DOUBLE);
     H5Tinsert(row, "strain_limit", offsetof(body_row, strain_limit), H5T_NATIVE_DOUBLE);
+    H5Tclose(kind);
     H5Tclose(name);
     return row;
 }
@@ -37,10 +62,15 @@ static body_row *body_rows(const cipc_model *model)
     for (int b = 0; rows != NULL && b < model->body_count; b++) {
         const cipc_body *body = &model->bodies[b];
         memcpy(rows[b].name, body->name, strnlen(body->name, CIPC_NAME_SIZE - 1));
+        rows[b].kind = body->kind;
         rows[b].first_node = body->first_node;
         rows[b].node_count = body->node_count;
         rows[b].first_triangle = body->first_triangle;
         rows[b].triangle_count = body->triangle_count;
+        rows[b].first_segment = body->first_segment;
+        rows[b].segment_count = body->segment_count;
+        rows[b].first_tetrahedron = body->first_tetrahedron;
+        rows[b].tetrahedron_count = body->tetrahedron_count;
         rows[b].fixed = body->fixed;
         rows[b].offset = body->offset;
         rows[b].thickness = body->material.thickness;
@@ -59,21 +89,56 @@ typedef struct part {
     const void *values;
 } part;
 
-enum { PART_COUNT = 6 };
+enum { PART_COUNT = 9 };
 
-static void list_parts(const cipc_model *model, hid_t row_type, const body_row *rows, part parts[PART_COUNT])
+/* All parts of a model; what the model itself does not have in this form is kept here. */
+typedef struct topology {
+    hid_t row_type;
+    body_row *rows;
+    int *particles;
+    part parts[PART_COUNT];
+} topology;
+
+static void list_parts(topology *t, const cipc_model *model)
 {
-    const hsize_t triangles = (hsize_t)model->triangle_count;
-    const hsize_t tetrahedra = (hsize_t)model->tetrahedron_count;
+    const hsize_t nodes = (hsize_t)model->node_count, bodies = (hsize_t)model->body_count;
+    const hsize_t triangles = (hsize_t)model->triangle_count, edges = (hsize_t)model->edge_count;
+    const hsize_t segments = (hsize_t)model->segment_count, tetrahedra = (hsize_t)model->tetrahedron_count;
+    const hsize_t particles = (hsize_t)cipc_particle_count(model);
     const part list[PART_COUNT] = {
         {"topology/triangles", H5T_NATIVE_INT, H5T_STD_I32LE, triangles, 3, sizeof(int), model->triangles},
         {"topology/triangle_body", H5T_NATIVE_INT, H5T_STD_I32LE, triangles, 0, sizeof(int), model->triangle_body},
-        {"topology/edges", H5T_NATIVE_INT, H5T_STD_I32LE, (hsize_t)model->edge_count, 2, sizeof(int), model->edges},
+        {"topology/edges", H5T_NATIVE_INT, H5T_STD_I32LE, edges, 2, sizeof(int), model->edges},
+        {"topology/segments", H5T_NATIVE_INT, H5T_STD_I32LE, segments, 2, sizeof(int), model->edges + model->first_segment},
+        {"topology/particles", H5T_NATIVE_INT, H5T_STD_I32LE, particles, 0, sizeof(int), t->particles},
         {"topology/tetrahedra", H5T_NATIVE_INT, H5T_STD_I32LE, tetrahedra, 4, sizeof(int), model->tetrahedra},
-        {"topology/rest", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, (hsize_t)model->node_count, 3, sizeof(double), model->rest},
-        {"topology/bodies", row_type, row_type, (hsize_t)model->body_count, 0, sizeof(body_row), rows},
+        {"topology/node_body", H5T_NATIVE_INT, H5T_STD_I32LE, nodes, 0, sizeof(int), model->node_body},
+        {"topology/rest", H5T_NATIVE_DOUBLE, H5T_IEEE_F64LE, nodes, 3, sizeof(double), model->rest},
+        {"topology/bodies", t->row_type, t->row_type, bodies, 0, sizeof(body_row), t->rows},
     };
-    memcpy(parts, list, sizeof list);
+    memcpy(t->parts, list, sizeof list);
+}
+
+static void topology_free(topology *t)
+{
+    if (t->row_type >= 0) {
+        H5Tclose(t->row_type);
+    }
+    cipc_free(t->rows);
+    cipc_free(t->particles);
+}
+
+/* False: out of memory; there is nothing to free then. */
+static bool topology_of(topology *t, const cipc_model *model)
+{
+    *t = (topology){.row_type = -1, .rows = body_rows(model), .particles = cipc_particle_nodes(model)};
+    if (t->rows == NULL || t->particles == NULL) {
+        topology_free(t);
+        return false;
+    }
+    t->row_type = body_row_type();
+    list_parts(t, model);
+    return true;
 }
 
 static bool write_dataset(hid_t file, const char *path, hid_t memory_type, hid_t file_type, hid_t space, const void *values)
@@ -121,19 +186,15 @@ static bool make_group(hid_t file, const char *name)
 
 bool cipc_trajectory_topology_write(hid_t file, const cipc_model *model, const char *scene_json)
 {
-    body_row *rows = body_rows(model);
-    if (rows == NULL) {
+    topology t;
+    if (!topology_of(&t, model)) {
         return false;
     }
-    hid_t row_type = body_row_type();
-    part parts[PART_COUNT];
-    list_parts(model, row_type, rows, parts);
     bool good = make_group(file, "topology") && write_scene(file, scene_json);
     for (int i = 0; i < PART_COUNT && good; i++) {
-        good = write_part(file, &parts[i]);
+        good = write_part(file, &t.parts[i]);
     }
-    H5Tclose(row_type);
-    cipc_free(rows);
+    topology_free(&t);
     return good;
 }
 
@@ -169,19 +230,15 @@ static bool part_matches(hid_t file, const part *p)
 
 bool cipc_trajectory_topology_matches(hid_t file, const cipc_model *model)
 {
-    body_row *rows = body_rows(model);
-    if (rows == NULL) {
+    topology t;
+    if (!topology_of(&t, model)) {
         return false;
     }
-    hid_t row_type = body_row_type();
-    part parts[PART_COUNT];
-    list_parts(model, row_type, rows, parts);
     bool same = true;
     for (int i = 0; i < PART_COUNT && same; i++) {
-        same = part_matches(file, &parts[i]);
+        same = part_matches(file, &t.parts[i]);
     }
-    H5Tclose(row_type);
-    cipc_free(rows);
+    topology_free(&t);
     return same;
 }
 

@@ -81,7 +81,7 @@ void sample_run_advance(sample_run *run)
     s->time = s->step * 0.01;
     s->barrier_stiffness = 1e3 / 3 * s->step;
     s->strain_stiffness_factor = 1 + 1.0 / 3 * s->step;
-    for (int i = 0; i < 3 * CLOTH_NODES; i++) {
+    for (int i = 0; i < 3 * CLOTH_NODES && i < 3 * s->node_count; i++) {
         s->position[i] += 0.001 * sin(i + 7.0 * s->step);
         s->velocity[i] = 0.1 * cos(i + 3.0 * s->step);
     }

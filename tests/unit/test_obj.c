@@ -11,7 +11,7 @@
 #include <string.h>
 
 #include "cipc/output.h"
-#include "support/sample_run.h"
+#include "support/every_kind.h"
 
 static void test_round_trip(void **state)
 {
@@ -52,6 +52,31 @@ static void test_round_trip(void **state)
     folder_remove(&folder);
 }
 
+/* Every element below the group of its body: what follows the nodes, word for word. */
+static void test_every_kind(void **state)
+{
+    (void)state;
+    cipc_error error;
+    const path folder = folder_make(), file = path_in(&folder, "a.obj");
+    sample_run run = every_kind_create_all();
+    const int (*surface)[3] = (const int (*)[3])run.model->triangles + run.model->bodies[3].first_triangle;
+    char expected[512];
+    int used = snprintf(expected, sizeof expected, "%s%s",
+                        "g cloth\nf 1 2 3\nf 3 2 4\ng strand\nl 5 6\nl 6 7\nl 7 8\n", "g grains\np 9\np 10\np 11\ng block\n");
+    for (int t = 0; t < 4; t++) {
+        used += snprintf(expected + used, sizeof expected - (size_t)used, "f %d %d %d\n", surface[t][0] + 1, surface[t][1] + 1,
+                         surface[t][2] + 1);
+    }
+    snprintf(expected + used, sizeof expected - (size_t)used, "g needles\nl 16 17\nl 18 19\n");
+    assert_int_equal(cipc_obj_write(file.text, run.model, run.state->position, &error), CIPC_OK);
+    char *text = file_read(&file, NULL);
+    assert_string_equal(strstr(text, "g cloth"), expected);
+    assert_non_null(strstr(text, "19 nodes, 6 triangles, 5 segments, 3 particles"));
+    free(text);
+    sample_run_destroy(&run);
+    folder_remove(&folder);
+}
+
 static void test_unwritable(void **state)
 {
     (void)state;
@@ -65,6 +90,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_round_trip),
+        cmocka_unit_test(test_every_kind),
         cmocka_unit_test(test_unwritable),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -17,8 +17,8 @@
 #include <unistd.h>
 
 #include "cipc/output.h"
+#include "support/every_kind.h"
 #include "support/failing_memory.h"
-#include "support/sample_run.h"
 
 static const char scene[] = "{\"steps\": 5, \"contact\": {\"dhat\": 0.001}, \"bodies\": [{\"name\": \"cloth\"}]}";
 
@@ -243,6 +243,185 @@ static void test_resume_with_another_model_is_refused(void **state)
     assert_int_equal(resume_quietly(f, other.model, other.state, scene, &error), CIPC_OK);
     sample_run_destroy(&other);
 }
+
+/* ---- Bodies of every kind -------------------------------------------------------------------------------------------------- */
+
+static void become(fixture *f, sample_run run)
+{
+    sample_run_destroy(&f->run);
+    f->run = run;
+}
+
+/* The integers of a dataset of rank 1 or 2 (malloc'd); how many goes to *count. */
+static int *read_integers(const path *file, const char *dataset, int *count)
+{
+    hid_t handle = H5Fopen(file->text, H5F_ACC_RDONLY, H5P_DEFAULT), data = H5Dopen(handle, dataset, H5P_DEFAULT);
+    hid_t space = H5Dget_space(data);
+    assert_true(space >= 0);
+    *count = (int)H5Sget_simple_extent_npoints(space);
+    int *values = calloc((size_t)*count + 1, sizeof *values);
+    if (*count > 0) {
+        assert_true(H5Dread(data, H5T_NATIVE_INT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) >= 0);
+    }
+    H5Sclose(space);
+    H5Dclose(data);
+    H5Fclose(handle);
+    return values;
+}
+
+static void assert_integers(const path *file, const char *dataset, const int *wanted, int count)
+{
+    int found;
+    int *values = read_integers(file, dataset, &found);
+    assert_int_equal(found, count);
+    assert_memory_equal(values, wanted, (size_t)count * sizeof *wanted);
+    free(values);
+}
+
+static void test_topology_of_every_kind(void **state)
+{
+    fixture *f = *state;
+    become(f, every_kind_create_all());
+    write_frames(f, 2, 2);
+    const int segments[] = {4, 5, 5, 6, 6, 7, 15, 16, 17, 18}, particles[] = {8, 9, 10};
+    const int node_body[] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 3, 3, 3, 3, 4, 4, 4, 4};
+    assert_integers(&f->file, "topology/segments", segments, 10);
+    assert_integers(&f->file, "topology/particles", particles, 3);
+    assert_integers(&f->file, "topology/node_body", node_body, 19);
+    assert_integers(&f->file, "topology/tetrahedra", f->run.model->tetrahedra[0], 4);
+    assert_int_equal(first_extent(f->file.text, "topology/triangles"), 6);
+    assert_int_equal(first_extent(f->file.text, "topology/edges"), f->run.model->edge_count);
+}
+
+/* Kinds by their names, as any HDF5 program sees them, and the bodies' ranges. */
+static void test_rows_of_every_kind(void **state)
+{
+    fixture *f = *state;
+    static const struct { const char *kind; int first_segment, segment_count, first_tetrahedron, tetrahedron_count; } wanted[] = {
+        {"shell", 0, 0, 0, 0}, {"rods", 0, 3, 0, 0}, {"particles", 3, 0, 0, 0}, {"volume", 3, 0, 0, 1}, {"rods", 3, 2, 1, 0}};
+    typedef struct row { int kind, first_segment, segment_count, first_tetrahedron, tetrahedron_count; double thickness; } row;
+    row rows[5];
+    become(f, every_kind_create_all());
+    write_frames(f, 2, 2);
+    hid_t handle = H5Fopen(f->file.text, H5F_ACC_RDONLY, H5P_DEFAULT), data = H5Dopen(handle, "topology/bodies", H5P_DEFAULT);
+    hid_t in_file = H5Dget_type(data), kind = H5Tget_member_type(in_file, (unsigned)H5Tget_member_index(in_file, "kind"));
+    hid_t type = H5Tcreate(H5T_COMPOUND, sizeof rows[0]);
+    H5Tinsert(type, "kind", offsetof(row, kind), kind);
+    H5Tinsert(type, "first_segment", offsetof(row, first_segment), H5T_NATIVE_INT);
+    H5Tinsert(type, "segment_count", offsetof(row, segment_count), H5T_NATIVE_INT);
+    H5Tinsert(type, "first_tetrahedron", offsetof(row, first_tetrahedron), H5T_NATIVE_INT);
+    H5Tinsert(type, "tetrahedron_count", offsetof(row, tetrahedron_count), H5T_NATIVE_INT);
+    H5Tinsert(type, "thickness", offsetof(row, thickness), H5T_NATIVE_DOUBLE);
+    assert_true(H5Dread(data, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, rows) >= 0);
+    for (int b = 0; b < 5; b++) {
+        char name[32];
+        assert_true(H5Tenum_nameof(kind, &rows[b].kind, name, sizeof name) >= 0);
+        assert_string_equal(name, wanted[b].kind);
+        assert_int_equal(rows[b].first_segment, wanted[b].first_segment);
+        assert_int_equal(rows[b].segment_count, wanted[b].segment_count);
+        assert_int_equal(rows[b].first_tetrahedron, wanted[b].first_tetrahedron);
+        assert_int_equal(rows[b].tetrahedron_count, wanted[b].tetrahedron_count);
+        assert_true(rows[b].thickness == 0.05);
+    }
+    H5Tclose(type);
+    H5Tclose(kind);
+    H5Tclose(in_file);
+    H5Dclose(data);
+    H5Fclose(handle);
+}
+
+/* Each kind alone: datasets of the others are empty, and such a file is written, copied to another room, and gone on from like any other. */
+static void test_a_kind_alone(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    for (cipc_body_kind kind = CIPC_BODY_SHELL; kind <= CIPC_BODY_VOLUME; kind++) {
+        become(f, every_kind_create(&kind, 1, false));
+        write_frames(f, 3, 1);
+        const cipc_model *m = f->run.model;
+        assert_int_equal(first_extent(f->file.text, "topology/triangles"), m->triangle_count);
+        assert_int_equal(first_extent(f->file.text, "topology/segments"), m->segment_count);
+        assert_int_equal(first_extent(f->file.text, "topology/particles"), kind == CIPC_BODY_PARTICLES ? m->node_count : 0);
+        sample_run again = every_kind_create(&kind, 1, false);
+        assert_int_equal(resume_quietly(f, again.model, again.state, scene, &error), CIPC_OK);
+        assert_bits_equal(again.state->position, f->run.state->position, 3 * m->node_count);
+        assert_bits_equal(again.state->velocity, f->run.state->velocity, 3 * m->node_count);
+        sample_run_destroy(&again);
+    }
+}
+
+static void test_resume_with_other_kinds_is_refused(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    become(f, every_kind_create_all());
+    write_frames(f, 2, 2);
+    cipc_model *m = f->run.model;
+    int *const changes[] = {&m->edges[m->first_segment][1], &m->tetrahedra[0][2], &m->node_body[9], &m->bodies[1].first_segment};
+    for (size_t i = 0; i < sizeof changes / sizeof changes[0]; i++) {
+        *changes[i] += 1;
+        assert_int_equal(resume_quietly(f, m, f->run.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+        *changes[i] -= 1;
+    }
+    m->bodies[2].kind = CIPC_BODY_SHELL; /* its nodes are no particles then */
+    assert_int_equal(resume_quietly(f, m, f->run.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    m->bodies[2].kind = CIPC_BODY_PARTICLES;
+    m->bodies[2].material.thickness *= 2;
+    assert_int_equal(resume_quietly(f, m, f->run.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    m->bodies[2].material.thickness /= 2;
+    assert_int_equal(resume_quietly(f, m, f->run.state, scene, &error), CIPC_OK);
+}
+
+static void set_format(const path *file, const char *text)
+{
+    hid_t handle = H5Fopen(file->text, H5F_ACC_RDWR, H5P_DEFAULT), type = H5Tcopy(H5T_C_S1), space = H5Screate(H5S_SCALAR);
+    H5Tset_size(type, strlen(text) + 1);
+    assert_true(H5Adelete(handle, "format") >= 0);
+    hid_t attribute = H5Acreate(handle, "format", type, space, H5P_DEFAULT, H5P_DEFAULT);
+    assert_true(H5Awrite(attribute, type, text) >= 0);
+    H5Aclose(attribute);
+    H5Sclose(space);
+    H5Tclose(type);
+    H5Fclose(handle);
+}
+
+/* A file as an older cipc wrote it is still read (for pictures), but not gone on from. */
+static void test_older_format_is_read_but_not_resumed(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    write_frames(f, 3, 3);
+    set_format(&f->file, "cipc trajectory 1");
+    hid_t handle = H5Fopen(f->file.text, H5F_ACC_RDWR, H5P_DEFAULT);
+    static const char *const newer[] = {"topology/segments", "topology/particles", "topology/node_body"};
+    for (size_t i = 0; i < sizeof newer / sizeof newer[0]; i++) {
+        assert_true(H5Ldelete(handle, newer[i], H5P_DEFAULT) >= 0);
+    }
+    H5Fclose(handle);
+    assert_int_equal(check_frames(&f->file, 3), 3);
+    assert_int_equal(resume_quietly(f, f->run.model, f->run.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    assert_non_null(strstr(error.what, "format 1"));
+    assert_non_null(strstr(error.remedy, "--resume"));
+    assert_int_equal(check_frames(&f->file, 3), 3); /* and it is as it was */
+}
+
+static void test_unknown_formats_are_refused(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    int frames;
+    static const char *const unknown[] = {"cipc trajectory 3", "cipc trajectory 0", "cipc trajectory", "another format 2", ""};
+    write_frames(f, 2, 2);
+    for (size_t i = 0; i < sizeof unknown / sizeof unknown[0]; i++) {
+        set_format(&f->file, unknown[i]);
+        assert_int_equal(cipc_trajectory_count(f->file.text, &frames, &error), CIPC_E_IO);
+        assert_int_equal(resume_quietly(f, f->run.model, f->run.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    }
+    set_format(&f->file, "cipc trajectory 2");
+    assert_int_equal(cipc_trajectory_count(f->file.text, &frames, &error), CIPC_OK);
+}
+
+/* ---- Damage --------------------------------------------------------------------------------------------------------------- */
 
 static void test_damaged_files_are_refused(void **state)
 {
@@ -534,6 +713,12 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_resume_restores_everything, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_resume_with_another_scene_is_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_resume_with_another_model_is_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_topology_of_every_kind, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_rows_of_every_kind, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_a_kind_alone, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_resume_with_other_kinds_is_refused, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_older_format_is_read_but_not_resumed, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_unknown_formats_are_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_damaged_files_are_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_impossible_counter_is_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_missing_files_and_frames, set_up, tear_down),
