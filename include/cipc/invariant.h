@@ -1,6 +1,10 @@
 /* cipc/invariant.h - the monitors: what must hold at every accepted line-search point, checked without any code of the solver. Floor 6.
  * Of the solver's floors they use the model's structs and the exact predicates only: no distance, barrier or CCD code, no active set, a
- * broad phase of their own (SPEC V.5). What each monitor proves, and what it does not: docs/monitors.md. */
+ * broad phase of their own (SPEC V.5). What each monitor proves, and what it does not: docs/monitors.md.
+ *
+ * Which pairs meet: every node that is not inside a volume and every triangle; every two edges; every node of a rod or particle and every
+ * segment; every two particles. Left out are pairs that share a node or have nodes sewn to each other, and pairs of bodies that the scene
+ * lets pass (cipc_model_meet). M1 looks at every edge and every triangle, with the same exceptions. */
 #ifndef CIPC_INVARIANT_H
 #define CIPC_INVARIANT_H
 
@@ -15,15 +19,15 @@
 typedef struct cipc_invariant_report {
     double min_gap;       /* min over pairs within reach of d - xi, m: the exact minimum, rounded to nearest; INFINITY: none within reach */
     int min_gap_nodes[4]; /* the pair: -1 for unused; point first, or edge a then edge b. Of pairs with the same rounded gap the first */
-    int min_gap_is_edge_edge;
+    cipc_pair_kind min_gap_kind; /* what it is, if there is one */
     double max_stretch; /* largest principal stretch over all triangles of bodies that have a membrane or a limit: of the triangle that double
                          * arithmetic finds to be stretched most, the exact value rounded upwards */
     int max_stretch_triangle;                   /* -1: none */
     double max_stretch_ratio;                   /* largest (sigma_1 - 1)/(s - 1) over limited triangles, likewise; 0 if none or below 0 */
     long exact_gap_checks, exact_strain_checks; /* how often the filter had to hand over to exact arithmetic */
-    long pairs_checked;                         /* point-triangle and edge-edge pairs with d - xi <= reach */
+    long pairs_checked;                         /* pairs of all kinds with d - xi <= reach */
     long crossings_checked; /* edge-triangle pairs that no separating plane was found for: decided by the exact predicate */
-    long paths_checked;     /* M5: point-triangle and edge-edge pairs whose paths were looked at */
+    long paths_checked;     /* M5: pairs of all kinds whose paths were looked at */
     long exact_path_checks; /* of those, how many no fixed direction separates: decided by the exact time of impact */
     bool lists_made;        /* the lists of candidate pairs were made anew at this look */
 } cipc_invariant_report;
@@ -57,9 +61,9 @@ cipc_status cipc_monitor_gap(cipc_monitor *monitor, const double *x, cipc_invari
 cipc_status cipc_monitor_strain(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);       /* M3 */
 cipc_status cipc_monitor_inversion(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);    /* M4 */
 
-/* M5, separately, because it takes two states: along the straight path of every node from x_from to x_to (both [3 * node_count]) no point-triangle or edge-edge
- * pair that shares no node comes to its xi or below. Decided exactly. CIPC_E_VIOLATED_SWEPT; CIPC_E_VIOLATED_FINITE; CIPC_E_INDETERMINATE; fills
- * report->paths_checked and exact_path_checks. */
+/* M5, separately, because it takes two states: along the straight path of every node from x_from to x_to (both [3 * node_count]) no pair that meets comes
+ * to its xi or below. Decided exactly. CIPC_E_VIOLATED_SWEPT; CIPC_E_VIOLATED_FINITE; CIPC_E_INDETERMINATE; fills report->paths_checked and
+ * exact_path_checks. */
 cipc_status cipc_monitor_swept(cipc_monitor *monitor, const double *x_from, const double *x_to, cipc_invariant_report *report, cipc_error *error);
 
 /* M6: energy decrease between consecutive accepted points, and the residual at convergence. `noise` >= 0 is the caller's derived bound on

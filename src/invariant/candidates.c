@@ -1,4 +1,4 @@
-/* Candidate pairs of the monitors M1 and M2, made by a broad phase of their own and kept while nothing has moved far. */
+/* Candidate pairs of the monitors M1, M2 and M5, made by a broad phase of their own and kept while nothing has moved far. */
 #include "invariant/candidates.h"
 
 #include <float.h>
@@ -18,7 +18,13 @@ enum { PART_SIZE = 16 };
 #define SMALLEST_SQUARE 0x1p-600
 
 /* The kinds of primitives of the two sides of a candidate kind. */
-static const int sides[CIPC_CANDIDATE_KINDS][2] = {{CIPC_POINTS, CIPC_TRIANGLES}, {CIPC_EDGES, CIPC_EDGES}, {CIPC_EDGES, CIPC_TRIANGLES}};
+static const int sides[CIPC_CANDIDATE_KINDS][2] = {
+    [CIPC_CANDIDATE_POINT_POINT] = {CIPC_PARTICLES, CIPC_PARTICLES},
+    [CIPC_CANDIDATE_POINT_EDGE] = {CIPC_ENDS, CIPC_SEGMENTS},
+    [CIPC_CANDIDATE_POINT_TRIANGLE] = {CIPC_POINTS, CIPC_TRIANGLES},
+    [CIPC_CANDIDATE_EDGE_EDGE] = {CIPC_EDGES, CIPC_EDGES},
+    [CIPC_CANDIDATE_EDGE_TRIANGLE] = {CIPC_EDGES, CIPC_TRIANGLES},
+};
 
 double invariant_candidates_offset(const cipc_model *model, int node_a, int node_b)
 {
@@ -35,12 +41,16 @@ void cipc_gather(double *stencil, const double *x, const int *nodes, int n)
     }
 }
 
-/* --- creation --- */
-
-static int parts_of(int count)
+double invariant_candidates_nodes(const cipc_model *model, cipc_pair_kind kind, const int pair[2], int nodes[4])
 {
-    return (count + PART_SIZE - 1) / PART_SIZE;
+    int na = cipc_pair_first_nodes(kind), nb = cipc_pair_nodes(kind) - na;
+    const int *a = na == 2 ? model->edges[pair[0]] : &pair[0];
+    const int *b = nb == 3 ? model->triangles[pair[1]] : nb == 2 ? model->edges[pair[1]] : &pair[1];
+    for (int i = 0; i < 4; i++) { nodes[i] = i < na ? a[i] : i < na + nb ? b[i - na] : -1; }
+    return invariant_candidates_offset(model, a[0], b[0]);
 }
+
+/* --- creation --- */
 
 static const cipc_primitives *first_side(const invariant_candidates *c, invariant_candidate_kind kind)
 {
@@ -52,16 +62,23 @@ static const cipc_primitives *second_side(const invariant_candidates *c, invaria
     return &c->primitives[sides[kind][1]];
 }
 
+/* Patches of the first side of a kind; none if there is nothing to meet. */
+static int asking_patches(const invariant_candidates *c, invariant_candidate_kind kind)
+{
+    const cipc_primitives *first = first_side(c, kind);
+    return first->count > 0 && second_side(c, kind)->count > 0 ? first->tree.patch_count[0] : 0;
+}
+
 static bool make_parts(invariant_candidates *c)
 {
     for (int kind = 0; kind < CIPC_CANDIDATE_KINDS; kind++) {
-        c->part_count += parts_of(first_side(c, (invariant_candidate_kind)kind)->tree.patch_count[0]);
+        c->part_count += (asking_patches(c, (invariant_candidate_kind)kind) + PART_SIZE - 1) / PART_SIZE;
     }
     c->parts = cipc_alloc((size_t)c->part_count, sizeof *c->parts);
     if (c->parts == NULL) { return false; }
     invariant_candidate_part *part = c->parts;
     for (int kind = 0; kind < CIPC_CANDIDATE_KINDS; kind++) {
-        int count = first_side(c, (invariant_candidate_kind)kind)->tree.patch_count[0];
+        int count = asking_patches(c, (invariant_candidate_kind)kind);
         for (int first = 0; first < count; first += PART_SIZE, part++) {
             part->kind = (invariant_candidate_kind)kind;
             part->first = first;
@@ -82,11 +99,19 @@ static bool all_fixed(const bool *fixed, const int *nodes, int n)
 static bool init_primitives(invariant_candidates *c, cipc_primitives *p, int kind)
 {
     const cipc_model *m = c->model;
-    const int *const nodes[] = {c->point_nodes, (const int *)m->edges, (const int *)m->triangles};
-    const int count[] = {m->node_count, m->edge_count, m->triangle_count};
-    p->count = count[kind];
-    p->size = kind + 1;
-    p->nodes = nodes[kind];
+    if (kind < CIPC_EDGES) {
+        p->nodes = c->nodes[kind];
+        p->size = 1; /* the number is counted already */
+    } else if (kind == CIPC_TRIANGLES) {
+        p->nodes = (const int *)m->triangles;
+        p->size = 3;
+        p->count = m->triangle_count;
+    } else {
+        p->first = kind == CIPC_SEGMENTS ? m->first_segment : 0;
+        p->nodes = m->edge_count > 0 ? m->edges[p->first] : NULL;
+        p->size = 2;
+        p->count = kind == CIPC_SEGMENTS ? m->segment_count : m->edge_count;
+    }
     p->order = cipc_alloc((size_t)p->count, sizeof *p->order);
     if (!cipc_patch_tree_init(&p->tree, p->count) || p->order == NULL ||
         !cipc_rest_order(p->order, m, p->nodes, p->size, p->count, c->fixed)) {
@@ -94,6 +119,36 @@ static bool init_primitives(invariant_candidates *c, cipc_primitives *p, int kin
     }
     while (p->moving < p->count && !all_fixed(c->fixed, &p->nodes[p->size * p->order[p->moving]], p->size)) { p->moving++; }
     return true;
+}
+
+/* Is the node one of the primitives of this kind? Models made by hand may leave `interior` out. */
+static bool is_of_kind(const cipc_model *m, int node, int kind)
+{
+    cipc_body_kind body = m->bodies[m->node_body[node]].kind;
+    if (kind == CIPC_POINTS) { return m->interior == NULL || !m->interior[node]; }
+    return body == CIPC_BODY_PARTICLES || (kind == CIPC_ENDS && body == CIPC_BODY_RODS);
+}
+
+static bool list_nodes(invariant_candidates *c)
+{
+    const cipc_model *m = c->model;
+    for (int kind = 0; kind < CIPC_EDGES; kind++) {
+        cipc_primitives *p = &c->primitives[kind];
+        for (int i = 0; i < m->node_count; i++) { p->count += is_of_kind(m, i, kind) ? 1 : 0; }
+        c->nodes[kind] = cipc_alloc((size_t)p->count, sizeof *c->nodes[kind]);
+        if (c->nodes[kind] == NULL) { return false; }
+        for (int i = 0, n = 0; i < m->node_count; i++) {
+            if (is_of_kind(m, i, kind)) { c->nodes[kind][n++] = i; }
+        }
+    }
+    return true;
+}
+
+static bool some_pass(const cipc_model *m)
+{
+    bool any = m->link_count > 0;
+    for (int i = 0; m->pair_apart != NULL && i < m->body_count * m->body_count; i++) { any = any || m->pair_apart[i]; }
+    return any;
 }
 
 bool invariant_candidates_init(invariant_candidates *c, const cipc_model *model, double reach, double margin, int threads, bool skip_fixed)
@@ -104,14 +159,11 @@ bool invariant_candidates_init(invariant_candidates *c, const cipc_model *model,
     c->margin = margin;
     c->threads = threads;
     size_t n = (size_t)model->node_count;
-    c->point_nodes = cipc_alloc(n, sizeof *c->point_nodes);
+    c->some_pass = some_pass(model);
     c->fixed = cipc_alloc(n, sizeof *c->fixed);
     c->made_at = cipc_alloc(3 * n, sizeof *c->made_at);
-    if (c->point_nodes == NULL || c->fixed == NULL || c->made_at == NULL) { return false; }
-    for (int i = 0; i < model->node_count; i++) {
-        c->point_nodes[i] = i;
-        c->fixed[i] = skip_fixed && model->bodies[model->node_body[i]].fixed;
-    }
+    if (c->fixed == NULL || c->made_at == NULL || !list_nodes(c)) { return false; }
+    for (int i = 0; i < model->node_count; i++) { c->fixed[i] = skip_fixed && model->bodies[model->node_body[i]].fixed; }
     for (int kind = 0; kind < CIPC_PRIMITIVE_KINDS; kind++) {
         if (!init_primitives(c, &c->primitives[kind], kind)) { return false; }
     }
@@ -128,7 +180,7 @@ void invariant_candidates_free(invariant_candidates *c)
         cipc_free(c->parts[i].pairs);
         cipc_free(c->parts[i].patches.places);
     }
-    cipc_free(c->point_nodes);
+    for (int kind = 0; kind < CIPC_EDGES; kind++) { cipc_free(c->nodes[kind]); }
     cipc_free(c->fixed);
     cipc_free(c->made_at);
     cipc_free(c->parts);
@@ -181,13 +233,14 @@ static void make_boxes(const invariant_candidates *c, int kind, const double *x,
 
 /* --- pairs --- */
 
-/* Do the primitives share a node? Lower edge first; without branches, for this is asked of every pair of boxes that overlap. */
-static bool is_incident(invariant_candidate_kind kind, const int *a, const int *b)
+/* Do the primitives share a node? With few branches, for this is asked of every pair of boxes that overlap. */
+static bool is_incident(const int *a, int na, const int *b, int nb)
 {
-    bool shared = (a[0] == b[0]) | (a[0] == b[1]);
-    if (kind != CIPC_CANDIDATE_POINT_TRIANGLE) { shared |= (a[1] == b[0]) | (a[1] == b[1]); }
-    if (kind != CIPC_CANDIDATE_EDGE_EDGE) { shared |= a[0] == b[2]; }
-    return kind == CIPC_CANDIDATE_EDGE_TRIANGLE ? shared | (a[1] == b[2]) : shared;
+    bool shared = a[0] == b[0];
+    if (nb > 1) { shared |= a[0] == b[1]; }
+    if (nb > 2) { shared |= a[0] == b[2]; }
+    if (na > 1) { shared |= (a[1] == b[0]) | (a[1] == b[1]); }
+    return na > 1 && nb > 2 ? shared | (a[1] == b[2]) : shared;
 }
 
 /* Is the pair proven to be so far apart that it stays out of reach while the lists serve? */
@@ -199,9 +252,7 @@ static bool is_out_of_reach(const invariant_candidates *c, invariant_candidate_k
     cipc_gather(&stencil[3 * na], x, b, nb);
     if (kind == CIPC_CANDIDATE_EDGE_TRIANGLE) { return cipc_edge_triangle_far(stencil, &stencil[6], c->margin); }
     double enough = (invariant_candidates_offset(c->model, a[0], b[0]) + c->reach + c->margin) * ROUND_UP;
-    cipc_separation s =
-        kind == CIPC_CANDIDATE_POINT_TRIANGLE ? cipc_separate_point_triangle(stencil, enough) : cipc_separate_edge_edge(stencil, enough);
-    return s.lower > enough;
+    return cipc_separate((cipc_pair_kind)kind, stencil, enough).lower > enough;
 }
 
 static bool append_pair(invariant_candidate_part *part, int a, int b)
@@ -219,23 +270,29 @@ static bool append_pair(invariant_candidate_part *part, int a, int b)
     return true;
 }
 
-/* Keep primitive a of the first side and b of the second, unless they share a node or are proven out of reach. */
+static int number_of(const cipc_primitives *p, int item)
+{
+    return p->size == 1 ? p->nodes[item] : p->first + item;
+}
+
+/* Keep primitive a of the first side and b of the second, unless they share a node, pass through each other or are proven out of reach. */
 static bool offer_pair(const invariant_candidates *c, invariant_candidate_part *part, int a, int b, const double *x)
 {
     const cipc_primitives *pa = first_side(c, part->kind), *pb = second_side(c, part->kind);
-    if (part->kind == CIPC_CANDIDATE_EDGE_EDGE && b < a) {
+    if (pa == pb && b < a) {
         int swap = a;
         a = b;
         b = swap;
     }
     const int *na = &pa->nodes[pa->size * a], *nb = &pb->nodes[pb->size * b];
-    bool skip = is_incident(part->kind, na, nb);
+    bool skip = is_incident(na, pa->size, nb, pb->size);
+    skip = skip || (c->some_pass && !cipc_model_meet(c->model, na, pa->size, nb, pb->size));
     skip = skip || (c->sweep_to == NULL && is_out_of_reach(c, part->kind, na, pa->size, nb, pb->size, x));
-    return skip || append_pair(part, a, b);
+    return skip || append_pair(part, number_of(pa, a), number_of(pb, b));
 }
 
 /* The places of the second side that the primitive at `place` of the first is to meet, [begin, end). The fixed come last in the order: a
- * moving primitive meets all, a fixed one the moving only; an edge meets the edges after it. */
+ * moving primitive meets all, a fixed one the moving only; among primitives of one kind each meets those after it. */
 typedef struct place_range {
     int begin, end;
 } place_range;

@@ -1,22 +1,19 @@
-/* Monitor M2: d > xi for every point-triangle and edge-edge pair that shares no node (SPEC V.5). A pair is cleared by a certified
- * separation (separation.c) or else decided by the exact comparison of d^2 with xi^2. The least gap is the exact one: the pairs that the
- * filter cannot tell from it are measured again exactly. */
+/* Monitor M2: d > xi for every pair of primitives that meet (SPEC V.5; include/cipc/invariant.h says which). A pair is cleared by a
+ * certified separation (separation.c) or else decided by the exact comparison of d^2 with xi^2. The least gap is the exact one: the pairs
+ * that the filter cannot tell from it are measured again exactly. */
 #include "cipc/invariant.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
-
 #include "cipc/oracle.h"
 #include "invariant/monitor.h"
 #include "invariant/separation.h"
 
-/* A measured pair; nodes: point and triangle, or two edges, the edge of lower index first. */
+/* A measured pair; of two nodes or two edges the one of lower index first. */
 typedef struct measured_pair {
     double gap;    /* at most d - xi rounded to nearest; if exact, that itself */
     double offset; /* xi */
-    bool edge_edge;
-    int nodes[4];
+    cipc_pair_kind kind;
+    int nodes[4]; /* unused: -1 */
     bool exact;  /* the filter had to hand over */
     bool beyond; /* proven to be out of reach; then gap is a lower bound only */
     bool violated;
@@ -33,7 +30,7 @@ typedef struct gap_result {
 static bool is_less(const measured_pair *a, const measured_pair *b)
 {
     if (a->gap != b->gap) { return a->gap < b->gap; }
-    if (a->edge_edge != b->edge_edge) { return b->edge_edge; }
+    if (a->kind != b->kind) { return a->kind < b->kind; }
     for (int i = 0; i < 4; i++) {
         if (a->nodes[i] != b->nodes[i]) { return a->nodes[i] < b->nodes[i]; }
     }
@@ -56,29 +53,17 @@ static void keep_least(gap_result *r, const measured_pair *p)
 static void measure(measured_pair *p, const double *x, double reach)
 {
     double stencil[12];
-    cipc_gather(stencil, x, p->nodes, 4);
+    cipc_gather(stencil, x, p->nodes, cipc_pair_nodes(p->kind));
     double enough = p->offset + reach;
-    cipc_separation s = p->edge_edge ? cipc_separate_edge_edge(stencil, enough) : cipc_separate_point_triangle(stencil, enough);
+    cipc_separation s = cipc_separate(p->kind, stencil, enough);
     p->beyond = s.lower > enough;
     p->exact = !(s.lower > p->offset) || (!s.tight && !p->beyond);
     p->violated = false;
     p->gap = s.lower - p->offset;
     if (p->exact) {
-        p->violated = cipc_exact_distance_sign(cipc_mesh_pair(p->edge_edge), stencil, p->offset) <= 0;
-        p->gap = cipc_exact_distance_gap(cipc_mesh_pair(p->edge_edge), stencil, p->offset);
+        p->violated = cipc_exact_distance_sign(p->kind, stencil, p->offset) <= 0;
+        p->gap = cipc_exact_distance_gap(p->kind, stencil, p->offset);
     }
-}
-
-static void set_nodes(measured_pair *p, const cipc_model *m, const int pair[2])
-{
-    if (p->edge_edge) {
-        memcpy(p->nodes, m->edges[pair[0]], 2 * sizeof(int));
-        memcpy(&p->nodes[2], m->edges[pair[1]], 2 * sizeof(int));
-    } else {
-        p->nodes[0] = pair[0];
-        memcpy(&p->nodes[1], m->triangles[pair[1]], 3 * sizeof(int));
-    }
-    p->offset = invariant_candidates_offset(m, p->nodes[0], p->nodes[p->edge_edge ? 2 : 1]);
 }
 
 /* Is the pair one of those whose least gap is reported? */
@@ -90,9 +75,9 @@ static bool counts(const measured_pair *p, double reach)
 static gap_result check_part(const cipc_model *m, const invariant_candidate_part *part, double reach, const double *x)
 {
     gap_result r = {0};
-    measured_pair p = {.edge_edge = part->kind == CIPC_CANDIDATE_EDGE_EDGE};
+    measured_pair p = {.kind = (cipc_pair_kind)part->kind};
     for (int i = 0; i < part->count; i++) {
-        set_nodes(&p, m, part->pairs[i]);
+        p.offset = invariant_candidates_nodes(m, p.kind, part->pairs[i], p.nodes);
         measure(&p, x, reach);
         r.exact += p.exact ? 1 : 0;
         if (counts(&p, reach)) {
@@ -106,35 +91,29 @@ static gap_result check_part(const cipc_model *m, const invariant_candidate_part
 static cipc_status fail_gap(const cipc_model *m, const double *x, const measured_pair *p, cipc_error *error)
 {
     double stencil[12], distance2;
-    cipc_gather(stencil, x, p->nodes, 4);
-    distance2 = cipc_exact_distance2(cipc_mesh_pair(p->edge_edge), stencil, NULL);
-    double distance = sqrt(distance2), gap = cipc_exact_distance_gap(cipc_mesh_pair(p->edge_edge), stencil, p->offset);
-    const int *n = p->nodes;
-    const char *a = cipc_monitor_body(m, n[0]), *b = cipc_monitor_body(m, n[3]);
-    static const char values[] = "distance %.17g (%a) must exceed the offset %.17g (%a); exact gap, rounded: %.17g (%a)";
-    char text[sizeof values + 6 * 32];
-    snprintf(text, sizeof text, values, distance, distance, p->offset, p->offset, gap, gap);
-    if (p->edge_edge) {
-        return cipc_fail(error, CIPC_E_VIOLATED_GAP, "monitor gap",
-                         "edge (nodes %d %d, body \"%s\") and edge (nodes %d %d, body \"%s\"): %s", n[0], n[1], a, n[2], n[3], b, text);
-    }
-    return cipc_fail(error, CIPC_E_VIOLATED_GAP, "monitor gap", "node %d (body \"%s\") and triangle (nodes %d %d %d, body \"%s\"): %s",
-                     n[0], a, n[1], n[2], n[3], b, text);
+    char pair[CIPC_MONITOR_PAIR_SIZE];
+    cipc_gather(stencil, x, p->nodes, cipc_pair_nodes(p->kind));
+    cipc_monitor_name_pair(pair, m, p->kind, p->nodes);
+    distance2 = cipc_exact_distance2(p->kind, stencil, NULL);
+    double distance = sqrt(distance2), gap = cipc_exact_distance_gap(p->kind, stencil, p->offset);
+    return cipc_fail(error, CIPC_E_VIOLATED_GAP, "monitor gap",
+                     "%s: distance %.17g (%a) must exceed the offset %.17g (%a); exact gap, rounded: %.17g (%a)", pair, distance, distance,
+                     p->offset, p->offset, gap, gap);
 }
 
 static double exact_gap(const measured_pair *p, const double *x)
 {
     double stencil[12];
-    cipc_gather(stencil, x, p->nodes, 4);
-    return cipc_exact_distance_gap(cipc_mesh_pair(p->edge_edge), stencil, p->offset);
+    cipc_gather(stencil, x, p->nodes, cipc_pair_nodes(p->kind));
+    return cipc_exact_distance_gap(p->kind, stencil, p->offset);
 }
 
 /* Pairs of one part that may be as near as *least, whose gap is exact: measured exactly, and the first of them in the order kept. */
 static void settle_part(measured_pair *least, const cipc_model *m, const invariant_candidate_part *part, double reach, const double *x)
 {
-    measured_pair p = {.edge_edge = part->kind == CIPC_CANDIDATE_EDGE_EDGE};
+    measured_pair p = {.kind = (cipc_pair_kind)part->kind};
     for (int i = 0; i < part->count; i++) {
-        set_nodes(&p, m, part->pairs[i]);
+        p.offset = invariant_candidates_nodes(m, p.kind, part->pairs[i], p.nodes);
         measure(&p, x, reach);
         if (!counts(&p, reach) || p.gap > least->gap) { continue; }
         if (!p.exact) { p.gap = exact_gap(&p, x); }
@@ -160,7 +139,7 @@ static void fill_report(cipc_invariant_report *report, const gap_result *r)
     report->pairs_checked = r->checked;
     report->exact_gap_checks = r->exact;
     report->min_gap = r->any ? r->least.gap : INFINITY;
-    report->min_gap_is_edge_edge = r->any && r->least.edge_edge ? 1 : 0;
+    report->min_gap_kind = r->any ? r->least.kind : CIPC_POINT_POINT;
     for (int i = 0; i < 4; i++) { report->min_gap_nodes[i] = r->any ? r->least.nodes[i] : -1; }
 }
 

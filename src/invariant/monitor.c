@@ -2,6 +2,7 @@
 #include "cipc/invariant.h"
 
 #include <math.h>
+#include <stdio.h>
 
 #include "invariant/monitor.h"
 
@@ -28,6 +29,24 @@ int cipc_monitor_sections(int count)
 const char *cipc_monitor_body(const cipc_model *model, int node)
 {
     return model->bodies[model->node_body[node]].name;
+}
+
+/* One primitive of n nodes; returns the length of the text, which has room in half of a pair's. */
+static int name_primitive(char *text, size_t size, const cipc_model *model, const int *nodes, int n)
+{
+    const char *body = cipc_monitor_body(model, nodes[0]);
+    if (n == 1) { return snprintf(text, size, "node %d (body \"%s\")", nodes[0], body); }
+    if (n == 2) { return snprintf(text, size, "edge (nodes %d %d, body \"%s\")", nodes[0], nodes[1], body); }
+    return snprintf(text, size, "triangle (nodes %d %d %d, body \"%s\")", nodes[0], nodes[1], nodes[2], body);
+}
+
+void cipc_monitor_name_pair(char text[CIPC_MONITOR_PAIR_SIZE], const cipc_model *model, cipc_pair_kind kind, const int nodes[4])
+{
+    size_t used = 0;
+    int na = cipc_pair_first_nodes(kind);
+    used += (size_t)name_primitive(text, CIPC_MONITOR_PAIR_SIZE, model, nodes, na);
+    used += (size_t)snprintf(&text[used], CIPC_MONITOR_PAIR_SIZE - used, " and ");
+    name_primitive(&text[used], CIPC_MONITOR_PAIR_SIZE - used, model, &nodes[na], cipc_pair_nodes(kind) - na);
 }
 
 static cipc_status check_options(const cipc_invariant_options *o, cipc_error *error)

@@ -34,4 +34,8 @@ int cipc_monitor_sections(int count);
 /* Name of the body a node belongs to. */
 const char *cipc_monitor_body(const cipc_model *model, int node);
 
+/* A pair in words: "node 3 (body "dust") and edge (nodes 4 5, body "rope")". */
+enum { CIPC_MONITOR_PAIR_SIZE = 2 * CIPC_NAME_SIZE + 128 };
+void cipc_monitor_name_pair(char text[CIPC_MONITOR_PAIR_SIZE], const cipc_model *model, cipc_pair_kind kind, const int nodes[4]);
+
 #endif

@@ -13,8 +13,8 @@
 #include "invariant/separation.h"
 
 typedef struct moving_pair {
-    bool edge_edge;
-    int nodes[4];
+    cipc_pair_kind kind;
+    int nodes[4];  /* unused: -1 */
     double offset; /* xi */
     bool violated; /* else undecided */
     cipc_exact_impact impact;
@@ -28,26 +28,21 @@ typedef struct swept_result {
     moving_pair first;
 } swept_result;
 
-static cipc_separation separate(const moving_pair *p, const double stencil[12], double enough)
-{
-    return p->edge_edge ? cipc_separate_edge_edge(stencil, enough) : cipc_separate_point_triangle(stencil, enough);
-}
-
 /* A direction that clears one end, tried at the other. The first one found that clears, then the best one. */
 static bool cleared_from(const moving_pair *p, const double here[12], const double there[12])
 {
-    cipc_separation s = separate(p, here, p->offset);
+    cipc_separation s = cipc_separate(p->kind, here, p->offset);
     if (!(s.lower > p->offset)) { return false; }
-    if (cipc_separation_along(p->edge_edge, there, s.n) > p->offset) { return true; }
-    s = separate(p, here, INFINITY);
-    return s.lower > p->offset && cipc_separation_along(p->edge_edge, there, s.n) > p->offset;
+    if (cipc_separation_along(p->kind, there, s.n) > p->offset) { return true; }
+    s = cipc_separate(p->kind, here, INFINITY);
+    return s.lower > p->offset && cipc_separation_along(p->kind, there, s.n) > p->offset;
 }
 
 /* A violation before what could not be decided. */
 static bool is_before(const moving_pair *a, const moving_pair *b)
 {
     if (a->violated != b->violated) { return a->violated; }
-    if (a->edge_edge != b->edge_edge) { return b->edge_edge; }
+    if (a->kind != b->kind) { return a->kind < b->kind; }
     for (int i = 0; i < 4; i++) {
         if (a->nodes[i] != b->nodes[i]) { return a->nodes[i] < b->nodes[i]; }
     }
@@ -63,13 +58,14 @@ static void keep_first(swept_result *r, const moving_pair *p)
 static void check_pair(swept_result *r, moving_pair *p, const double *from, const double *to)
 {
     double here[12], there[12];
-    cipc_gather(here, from, p->nodes, 4);
-    cipc_gather(there, to, p->nodes, 4);
+    int count = cipc_pair_nodes(p->kind);
+    cipc_gather(here, from, p->nodes, count);
+    cipc_gather(there, to, p->nodes, count);
     r->checked++;
     if (cleared_from(p, here, there) || cleared_from(p, there, here)) { return; }
-    cipc_stencil_path path = {.kind = cipc_mesh_pair(p->edge_edge), .to_end = true};
-    memcpy(path.x, here, sizeof here);
-    memcpy(path.p, there, sizeof there);
+    cipc_stencil_path path = {.kind = p->kind, .to_end = true};
+    memcpy(path.x, here, 3 * (size_t)count * sizeof *here);
+    memcpy(path.p, there, 3 * (size_t)count * sizeof *there);
     r->exact++;
     cipc_verdict clear = cipc_exact_path_clear(&path, p->offset, 1);
     if (clear == CIPC_YES) { return; }
@@ -78,24 +74,12 @@ static void check_pair(swept_result *r, moving_pair *p, const double *from, cons
     keep_first(r, p);
 }
 
-static void set_nodes(moving_pair *p, const cipc_model *m, const int pair[2])
-{
-    if (p->edge_edge) {
-        memcpy(p->nodes, m->edges[pair[0]], 2 * sizeof(int));
-        memcpy(&p->nodes[2], m->edges[pair[1]], 2 * sizeof(int));
-    } else {
-        p->nodes[0] = pair[0];
-        memcpy(&p->nodes[1], m->triangles[pair[1]], 3 * sizeof(int));
-    }
-    p->offset = invariant_candidates_offset(m, p->nodes[0], p->nodes[p->edge_edge ? 2 : 1]);
-}
-
 static swept_result check_part(const cipc_model *m, const invariant_candidate_part *part, const double *from, const double *to)
 {
     swept_result r = {0};
-    moving_pair p = {.edge_edge = part->kind == CIPC_CANDIDATE_EDGE_EDGE};
+    moving_pair p = {.kind = (cipc_pair_kind)part->kind};
     for (int i = 0; i < part->count; i++) {
-        set_nodes(&p, m, part->pairs[i]);
+        p.offset = invariant_candidates_nodes(m, p.kind, part->pairs[i], p.nodes);
         check_pair(&r, &p, from, to);
     }
     return r;
@@ -104,17 +88,12 @@ static swept_result check_part(const cipc_model *m, const invariant_candidate_pa
 static cipc_status fail_swept(const cipc_model *m, const swept_result *r, cipc_error *error)
 {
     const moving_pair *p = &r->first;
-    const int *n = p->nodes;
-    const char *a = cipc_monitor_body(m, n[0]), *b = cipc_monitor_body(m, n[3]);
     cipc_status status = p->violated ? CIPC_E_VIOLATED_SWEPT : CIPC_E_INDETERMINATE;
-    char text[192];
+    char text[192], pair[CIPC_MONITOR_PAIR_SIZE];
+    cipc_monitor_name_pair(pair, m, p->kind, p->nodes);
     snprintf(text, sizeof text, "on the way the distance falls to the offset %.17g (%a) at %.17g (%a) of the path", p->offset, p->offset, p->impact.lo, p->impact.lo);
     if (!p->violated) { snprintf(text, sizeof text, "exact arithmetic could not decide whether the distance falls to the offset %.17g (%a)", p->offset, p->offset); }
-    if (p->edge_edge) {
-        return cipc_fail(error, status, "monitor swept", "edge (nodes %d %d, body \"%s\") and edge (nodes %d %d, body \"%s\"): %s", n[0], n[1], a, n[2], n[3], b,
-                         text);
-    }
-    return cipc_fail(error, status, "monitor swept", "node %d (body \"%s\") and triangle (nodes %d %d %d, body \"%s\"): %s", n[0], a, n[1], n[2], n[3], b, text);
+    return cipc_fail(error, status, "monitor swept", "%s: %s", pair, text);
 }
 
 /* The lists of the resting monitors serve for the whole path if they serve for both ends: a node that is within half their margin of where they were made at

@@ -25,7 +25,7 @@ void cipc_step_invariants_add(cipc_step_invariants *step, const cipc_invariant_r
     if (report->min_gap < worst->min_gap) {
         worst->min_gap = report->min_gap;
         memcpy(worst->min_gap_nodes, report->min_gap_nodes, sizeof worst->min_gap_nodes);
-        worst->min_gap_is_edge_edge = report->min_gap_is_edge_edge;
+        worst->min_gap_kind = report->min_gap_kind;
     }
     if (report->max_stretch > worst->max_stretch) {
         worst->max_stretch = report->max_stretch;

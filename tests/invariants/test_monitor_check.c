@@ -47,7 +47,7 @@ static void compare_with_plain(const hand_model *h, cipc_monitor *monitor, const
 /* Everything in the report but lists_made. */
 static void assert_same_report(const cipc_invariant_report *a, const cipc_invariant_report *b)
 {
-    assert_true(a->min_gap == b->min_gap && a->min_gap_is_edge_edge == b->min_gap_is_edge_edge);
+    assert_true(a->min_gap == b->min_gap && a->min_gap_kind == b->min_gap_kind);
     assert_memory_equal(a->min_gap_nodes, b->min_gap_nodes, sizeof a->min_gap_nodes);
     assert_true(a->max_stretch == b->max_stretch && a->max_stretch_ratio == b->max_stretch_ratio);
     assert_int_equal(a->max_stretch_triangle, b->max_stretch_triangle);
@@ -64,7 +64,7 @@ static void test_walk(void **state)
     fail_allocation(0);
     enum { WAYS = 4, STEPS = 24 };
     uint64_t seed = 101;
-    hand_model *h = crumpled_scene(&seed, 5, 0.02);
+    hand_model *h = mixed_scene(&seed, 5, 0.02);
     cipc_monitor *ways[WAYS] = {create(h, 0, 1), create(h, 0.004, 1), create(h, 0.004, 2), create(h, 0.02, 5)};
     double *start = calloc(3 * (size_t)h->model.node_count, sizeof *start);
     memcpy(start, h->x, 3 * (size_t)h->model.node_count * sizeof *start);
@@ -176,7 +176,7 @@ static void test_lack_of_memory(void **state)
 {
     (void)state;
     uint64_t seed = 103;
-    hand_model *h = crumpled_scene(&seed, 3, 0.02);
+    hand_model *h = mixed_scene(&seed, 3, 0.02);
     long failures = 0;
     for (long n = 1;; n++) {
         fail_allocation(n);

@@ -156,12 +156,12 @@ static void test_worst_of_several_points(void **state)
     const cipc_invariant_report a = {
         .min_gap = 3e-5, .min_gap_nodes = {1, 2, 3, 4}, .max_stretch = 1.2, .max_stretch_triangle = 1, .exact_gap_checks = 1};
     const cipc_invariant_report b = {.min_gap = 1e-5, .min_gap_nodes = {5, 6, 7, 8}, .max_stretch = 1.1, .max_stretch_triangle = 2,
-                                     .max_stretch_ratio = 0.5, .exact_gap_checks = 2, .min_gap_is_edge_edge = 1};
+                                     .max_stretch_ratio = 0.5, .exact_gap_checks = 2, .min_gap_kind = CIPC_EDGE_EDGE};
     cipc_step_invariants_add(&v, &a);
     cipc_step_invariants_add(&v, &b);
     cipc_step_invariants_add(&v, &a);
     assert_int_equal(v.points, 3);
-    assert_true(v.worst.min_gap == 1e-5 && v.worst.min_gap_nodes[0] == 5 && v.worst.min_gap_is_edge_edge == 1);
+    assert_true(v.worst.min_gap == 1e-5 && v.worst.min_gap_nodes[0] == 5 && v.worst.min_gap_kind == CIPC_EDGE_EDGE);
     assert_true(v.worst.max_stretch == 1.2 && v.worst.max_stretch_triangle == 1 && v.worst.max_stretch_ratio == 0.5);
     assert_int_equal(v.worst.exact_gap_checks, 4);
 }
