@@ -23,7 +23,8 @@ typedef struct cipc_invariant_report {
     double max_stretch; /* largest principal stretch over all triangles of bodies that have a membrane or a limit: of the triangle that double
                          * arithmetic finds to be stretched most, the exact value rounded upwards */
     int max_stretch_triangle;                   /* -1: none */
-    double max_stretch_ratio;                   /* largest (sigma_1 - 1)/(s - 1) over limited triangles, likewise; 0 if none or below 0 */
+    double max_stretch_ratio;                   /* of all strain limits the largest fraction that is used: (sigma_1 - 1)/(s - 1),
+                                                 * (1 - sigma_2)/(1 - s) of lower limits, |E|/L of woven cloth; likewise; 0 if none or below 0 */
     long exact_gap_checks, exact_strain_checks; /* how often the filter had to hand over to exact arithmetic */
     long pairs_checked;                         /* pairs of all kinds with d - xi <= reach */
     long crossings_checked; /* edge-triangle pairs that no separating plane was found for: decided by the exact predicate */
@@ -59,6 +60,8 @@ cipc_status cipc_monitor_finite(const cipc_model *model, const double *x, cipc_e
 cipc_status cipc_monitor_intersection(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error); /* M1 */
 cipc_status cipc_monitor_gap(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);          /* M2 */
 cipc_status cipc_monitor_strain(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);       /* M3 */
+/* How many triangles M3 has something to say about. */
+int cipc_invariant_limited_triangles(const cipc_model *model);
 cipc_status cipc_monitor_inversion(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);    /* M4 */
 
 /* M5, separately, because it takes two states: along the straight path of every node from x_from to x_to (both [3 * node_count]) no pair that meets comes

@@ -200,10 +200,7 @@ static void begin_summary(cipc_simulation *s)
     s->summary.tetrahedra = scene->model->tetrahedron_count;
     s->summary.threads = scene->options.threads;
     s->summary.seed = scene->seed;
-    for (int b = 0; b < scene->model->body_count; b++) {
-        const cipc_body *body = &scene->model->bodies[b];
-        s->summary.limited_triangles += body->material.strain_limit > 0 ? body->triangle_count : 0;
-    }
+    s->summary.limited_triangles = cipc_invariant_limited_triangles(scene->model);
 }
 
 /* Everything that can be wrong with the input, before the output folder is touched. */

@@ -74,7 +74,7 @@ cipc_status cipc_monitor_create(cipc_monitor **monitor, const cipc_model *model,
         cipc_monitor_destroy(m);
         return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, place, "no memory for the broad phase of %d nodes", model->node_count);
     }
-    cipc_strain_rest_init(m->rest, model);
+    for (int t = 0; t < model->triangle_count; t++) { cipc_strain_rest_init(&m->rest[t], model, t); }
     *monitor = m;
     return CIPC_OK;
 }

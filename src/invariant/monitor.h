@@ -4,14 +4,7 @@
 
 #include "cipc/invariant.h"
 #include "invariant/candidates.h"
-
-/* What M3 keeps of a triangle at rest. */
-typedef struct cipc_strain_rest {
-    double form[3];    /* first fundamental form Ibar: |E1|^2, E1.E2, |E2|^2 */
-    double inverse[4]; /* rows of the inverse of the 2 x 2 matrix of E1, E2 in an orthonormal frame of the rest triangle */
-    double limit;      /* s; 0: not limited */
-    bool measured;     /* counts for max_stretch */
-} cipc_strain_rest;
+#include "invariant/strain_limits.h"
 
 struct cipc_monitor {
     const cipc_model *model;
@@ -20,9 +13,6 @@ struct cipc_monitor {
     invariant_candidates paths; /* of M5, when nodes move too far for the lists above */
     cipc_strain_rest *rest; /* triangle_count */
 };
-
-/* Fill rest[triangle_count]. (strain.c) */
-void cipc_strain_rest_init(cipc_strain_rest *rest, const cipc_model *model);
 
 /* M8, then valid lists for x; *report gets lists_made. */
 cipc_status cipc_monitor_prepare(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);

@@ -1,177 +1,62 @@
-/* Monitor M3: the largest principal stretch of every limited triangle is below its limit, sigma_1 < s (SPEC V.5).
- *
- * With first fundamental forms Ibar (rest) and I (now):  sigma_1 < s  <=>  M = s^2 Ibar - I positive definite  <=>  M11 > 0 and det M >
- * 0. Both are evaluated in double with an error bound (docs/monitors.md, "The strain bound"); what it cannot decide goes to exact
- * arithmetic. */
+/* Monitor M3: every strain is within its limits (SPEC V.5): principal stretches below s and above the lower s, Green strains of woven cloth
+ * below theirs. What double arithmetic cannot prove is decided exactly (strain_limits.c). */
 #include "cipc/invariant.h"
 
-#include <float.h>
 #include <math.h>
-#include <stdint.h>
-#include <string.h>
 
-#include "base/vector.h"
-#include "cipc/oracle.h"
 #include "invariant/monitor.h"
-
-#define UNIT (0.5 * DBL_EPSILON)
-/* With Q = s^2 tr Ibar + tr I, every entry of M is off by at most 9 u Q, hence det M by at most 43 u Q^2; rounded up to cover the bounds'
- * own rounding. */
-#define ENTRY_ERROR       (10 * UNIT)
-#define DETERMINANT_ERROR (48 * UNIT)
-/* Outside of these, underflow or overflow could spoil the bounds: nothing is proven then. */
-#define SMALLEST_TRACE 0x1p-400
-#define LARGEST_TRACE  0x1p400
-
-/* form = |e1|^2, e1.e2, |e2|^2. */
-static void fundamental_form(double form[3], const double e1[3], const double e2[3])
-{
-    form[0] = v3_norm2(e1);
-    form[1] = v3_dot(e1, e2);
-    form[2] = v3_norm2(e2);
-}
-
-static void edges_of(const double *x, const int nodes[3], double e1[3], double e2[3])
-{
-    v3_sub(e1, &x[3 * (size_t)nodes[1]], &x[3 * (size_t)nodes[0]]);
-    v3_sub(e2, &x[3 * (size_t)nodes[2]], &x[3 * (size_t)nodes[0]]);
-}
-
-/* Inverse of [E1 E2] = [l a; 0 b] in the frame whose first axis is along E1; all zero for a triangle without area. */
-static void invert_rest(double inverse[4], const double E1[3], const double E2[3])
-{
-    double normal[3], l = v3_norm(E1);
-    v3_cross(normal, E1, E2);
-    double a = v3_dot(E1, E2) / l, b = v3_norm(normal) / l;
-    bool has_area = l > 0 && b > 0;
-    inverse[0] = has_area ? 1 / l : 0;
-    inverse[1] = has_area ? -a / (l * b) : 0;
-    inverse[2] = 0;
-    inverse[3] = has_area ? 1 / b : 0;
-}
-
-void cipc_strain_rest_init(cipc_strain_rest *rest, const cipc_model *model)
-{
-    for (int t = 0; t < model->triangle_count; t++) {
-        const cipc_material *material = &model->bodies[model->triangle_body[t]].material;
-        double E1[3], E2[3];
-        edges_of(model->rest, model->triangles[t], E1, E2);
-        fundamental_form(rest[t].form, E1, E2);
-        invert_rest(rest[t].inverse, E1, E2);
-        rest[t].limit = material->strain_limit;
-        rest[t].measured = material->membrane != CIPC_MEMBRANE_NONE || material->strain_limit > 0;
-    }
-}
-
-/* Does double arithmetic prove that M = s^2 Ibar - I is positive definite? */
-static bool is_proven(const cipc_strain_rest *rest, const double form[3])
-{
-    double s2 = rest->limit * rest->limit;
-    double m11 = s2 * rest->form[0] - form[0], m12 = s2 * rest->form[1] - form[1], m22 = s2 * rest->form[2] - form[2];
-    double trace = s2 * (rest->form[0] + rest->form[2]) + (form[0] + form[2]);
-    bool in_range = trace > SMALLEST_TRACE && trace < LARGEST_TRACE;
-    return in_range && m11 > ENTRY_ERROR * trace && m11 * m22 - m12 * m12 > DETERMINANT_ERROR * trace * trace;
-}
-
-/* Largest eigenvalue of C = F^T F with F = [e1 e2] B, B the inverse at rest; its root is sigma_1. */
-static double largest_stretch2(const cipc_strain_rest *rest, const double e1[3], const double e2[3])
-{
-    double f1[3], f2[3];
-    v3_scale(f1, rest->inverse[0], e1);
-    for (int k = 0; k < 3; k++) { f2[k] = rest->inverse[1] * e1[k] + rest->inverse[3] * e2[k]; }
-    double c11 = v3_norm2(f1), c12 = v3_dot(f1, f2), c22 = v3_norm2(f2);
-    double half = 0.5 * (c11 - c22);
-    return 0.5 * (c11 + c22) + sqrt(half * half + c12 * c12);
-}
-
-/* Positive doubles are in the order of their bits. */
-static uint64_t rank_of(double positive)
-{
-    uint64_t rank;
-    memcpy(&rank, &positive, sizeof rank);
-    return rank;
-}
-
-static double of_rank(uint64_t rank)
-{
-    double value;
-    memcpy(&value, &rank, sizeof value);
-    return value;
-}
-
-/* sigma_1 rounded upwards: the least double that exact comparison finds not below it, sought from the estimate in steps that double until it
- * lies between two, then by halves. Where there is none (a rest triangle without area) the estimate stands. */
-static double stretch_upwards(const cipc_model *m, int triangle, const double *x, double estimate)
-{
-    const uint64_t end = rank_of(INFINITY);
-    double rest[9], now[9];
-    if (!(estimate > 0) || !isfinite(estimate)) { return estimate; }
-    cipc_gather(rest, m->rest, m->triangles[triangle], 3);
-    cipc_gather(now, x, m->triangles[triangle], 3);
-    uint64_t above = rank_of(estimate), below = above - 1, step = 1;
-    for (; below > 0 && cipc_exact_compare_stretch(rest, now, of_rank(below)) >= 0; step *= 2) {
-        above = below;
-        below = below > step ? below - step : 0;
-    }
-    for (; above < end && cipc_exact_compare_stretch(rest, now, of_rank(above)) < 0; step *= 2) {
-        below = above;
-        above = end - above > step ? above + step : end;
-    }
-    if (above == end) { return estimate; }
-    while (above - below > 1) {
-        uint64_t middle = below + (above - below) / 2;
-        if (cipc_exact_compare_stretch(rest, now, of_rank(middle)) >= 0) {
-            above = middle;
-        } else {
-            below = middle;
-        }
-    }
-    return of_rank(above);
-}
+#include "invariant/strain_limits.h"
 
 /* What one section of the triangles gave. */
 typedef struct strain_result {
-    double stretch, ratio; /* as doubles give them */
-    int triangle;          /* of the largest stretch; -1: none */
-    int ratio_triangle;    /* of the largest ratio; -1: none limited */
+    double stretch, used; /* as doubles give them */
+    int triangle;         /* of the largest stretch; -1: none */
+    int used_triangle;    /* of the limit used most; -1: none limited */
+    cipc_strain_kind used_kind;
     int violating; /* the first violating triangle; -1: none */
+    cipc_strain_kind violated;
     long exact;
 } strain_result;
 
-static bool is_violating(const cipc_model *m, int triangle, double limit, const double *x)
+static const strain_result nothing = {.used = -INFINITY, .triangle = -1, .used_triangle = -1, .violating = -1};
+
+static void check_limit(strain_result *r, const cipc_monitor *monitor, int t, cipc_strain_kind kind, const cipc_strain_edges *edges,
+                        double value, const double *x)
 {
-    double rest[9], now[9];
-    cipc_gather(rest, m->rest, m->triangles[triangle], 3);
-    cipc_gather(now, x, m->triangles[triangle], 3);
-    return cipc_exact_compare_stretch(rest, now, limit) <= 0;
+    const cipc_strain_rest *rest = &monitor->rest[t];
+    double used = cipc_strain_used(kind, value, rest->limits[kind]);
+    if (used > r->used) { /* not a number where doubles have no axes */
+        r->used = used;
+        r->used_triangle = t;
+        r->used_kind = kind;
+    }
+    if (cipc_strain_is_proven(rest, kind, edges)) { return; }
+    r->exact++;
+    if (r->violating < 0 && cipc_strain_compare(monitor->model, t, kind, x, rest->limits[kind]) <= 0) {
+        r->violating = t;
+        r->violated = kind;
+    }
 }
 
 static void check_triangle(strain_result *r, const cipc_monitor *monitor, int t, const double *x)
 {
     const cipc_strain_rest *rest = &monitor->rest[t];
-    double e1[3], e2[3], form[3];
-    edges_of(x, monitor->model->triangles[t], e1, e2);
-    double stretch = sqrt(largest_stretch2(rest, e1, e2));
+    cipc_strain_edges edges = cipc_strain_edges_of(x, monitor->model->triangles[t]);
+    double stretch = cipc_strain_value(rest, CIPC_STRAIN_LARGEST, &edges);
     if (r->triangle < 0 || stretch > r->stretch) {
         r->stretch = stretch;
         r->triangle = t;
     }
-    if (!(rest->limit > 0)) { return; }
-    double ratio = (stretch - 1) / (rest->limit - 1);
-    if (r->ratio_triangle < 0 || ratio > r->ratio) {
-        r->ratio = ratio;
-        r->ratio_triangle = t;
-    }
-    fundamental_form(form, e1, e2);
-    if (!is_proven(rest, form)) {
-        r->exact++;
-        if (is_violating(monitor->model, t, rest->limit, x) && r->violating < 0) { r->violating = t; }
+    for (int k = 0; k < CIPC_STRAIN_KINDS; k++) {
+        cipc_strain_kind kind = (cipc_strain_kind)k;
+        if (!(rest->limits[k] > 0)) { continue; }
+        check_limit(r, monitor, t, kind, &edges, k == CIPC_STRAIN_LARGEST ? stretch : cipc_strain_value(rest, kind, &edges), x);
     }
 }
 
 static strain_result check_section(const cipc_monitor *monitor, int section, const double *x)
 {
-    strain_result r = {0, 0, -1, -1, -1, 0};
+    strain_result r = nothing;
     int first = section * CIPC_MONITOR_SECTION, count = monitor->model->triangle_count;
     int last = first + CIPC_MONITOR_SECTION < count ? first + CIPC_MONITOR_SECTION : count;
     for (int t = first; t < last; t++) {
@@ -182,45 +67,57 @@ static strain_result check_section(const cipc_monitor *monitor, int section, con
 
 static strain_result merge(const strain_result *results, int count)
 {
-    strain_result all = {0, 0, -1, -1, -1, 0};
+    strain_result all = nothing;
     for (int i = 0; i < count; i++) {
         const strain_result *r = &results[i];
         if (r->triangle >= 0 && (all.triangle < 0 || r->stretch > all.stretch)) {
             all.stretch = r->stretch;
             all.triangle = r->triangle;
         }
-        if (r->ratio_triangle >= 0 && (all.ratio_triangle < 0 || r->ratio > all.ratio)) {
-            all.ratio = r->ratio;
-            all.ratio_triangle = r->ratio_triangle;
+        if (r->used > all.used) {
+            all.used = r->used;
+            all.used_triangle = r->used_triangle;
+            all.used_kind = r->used_kind;
         }
-        all.violating = all.violating < 0 ? r->violating : all.violating;
+        if (all.violating < 0) {
+            all.violating = r->violating;
+            all.violated = r->violated;
+        }
         all.exact += r->exact;
     }
     return all;
 }
 
-static cipc_status fail_strain(const cipc_monitor *monitor, int t, const double *x, cipc_error *error)
+/* The value of a limited strain as exact arithmetic has it, rounded towards what is forbidden. */
+static double exact_value(const cipc_monitor *monitor, int t, cipc_strain_kind kind, const double *x)
 {
+    cipc_strain_edges edges = cipc_strain_edges_of(x, monitor->model->triangles[t]);
+    return cipc_strain_rounded(monitor->model, t, kind, x, cipc_strain_value(&monitor->rest[t], kind, &edges));
+}
+
+static cipc_status fail_strain(const cipc_monitor *monitor, int t, cipc_strain_kind kind, const double *x, cipc_error *error)
+{
+    static const char *const names[] = {"largest principal stretch", "least principal stretch", "Green strain along the warp, in magnitude,",
+                                        "Green strain along the weft, in magnitude,", "Green strain in shear, in magnitude,"};
     const cipc_model *m = monitor->model;
     const int *n = m->triangles[t];
-    double e1[3], e2[3], limit = monitor->rest[t].limit;
-    edges_of(x, n, e1, e2);
-    double stretch = stretch_upwards(m, t, x, sqrt(largest_stretch2(&monitor->rest[t], e1, e2)));
+    double limit = monitor->rest[t].limits[kind], value = exact_value(monitor, t, kind, x);
+    bool least = kind == CIPC_STRAIN_LEAST;
     return cipc_fail(error, CIPC_E_VIOLATED_STRAIN, "monitor strain",
-                     "triangle %d (nodes %d %d %d, body \"%s\"): largest principal stretch %.17g (%a, exact, rounded upwards) must be "
-                     "below the limit %.17g (%a)",
-                     t, n[0], n[1], n[2], m->bodies[m->triangle_body[t]].name, stretch, stretch, limit, limit);
+                     "triangle %d (nodes %d %d %d, body \"%s\"): %s %.17g (%a, exact, rounded %s) must be %s the limit %.17g (%a)", t, n[0],
+                     n[1], n[2], m->bodies[m->triangle_body[t]].name, names[kind], value, value, least ? "downwards" : "upwards",
+                     least ? "above" : "below", limit, limit);
 }
 
 /* What double arithmetic found to be the largest, rounded upwards from its exact value: what is reported below a limit is below it. */
 static void fill_report(cipc_invariant_report *report, const strain_result *r, const cipc_monitor *monitor, const double *x)
 {
-    report->max_stretch = r->triangle >= 0 ? stretch_upwards(monitor->model, r->triangle, x, r->stretch) : 0;
+    report->max_stretch = r->triangle >= 0 ? exact_value(monitor, r->triangle, CIPC_STRAIN_LARGEST, x) : 0;
     report->max_stretch_triangle = r->triangle;
     report->max_stretch_ratio = 0;
-    if (r->ratio_triangle >= 0) {
-        double limit = monitor->rest[r->ratio_triangle].limit, stretch = r->ratio * (limit - 1) + 1;
-        report->max_stretch_ratio = fmax(0, (stretch_upwards(monitor->model, r->ratio_triangle, x, stretch) - 1) / (limit - 1));
+    if (r->used_triangle >= 0) {
+        double value = exact_value(monitor, r->used_triangle, r->used_kind, x), limit = monitor->rest[r->used_triangle].limits[r->used_kind];
+        report->max_stretch_ratio = fmax(0, cipc_strain_used(r->used_kind, value, limit));
     }
     report->exact_strain_checks = r->exact;
 }
@@ -239,5 +136,16 @@ cipc_status cipc_monitor_strain(cipc_monitor *monitor, const double *x, cipc_inv
     strain_result all = merge(results, sections);
     cipc_free(results);
     if (report != NULL) { fill_report(report, &all, monitor, x); }
-    return all.violating < 0 ? CIPC_OK : fail_strain(monitor, all.violating, x, error);
+    return all.violating < 0 ? CIPC_OK : fail_strain(monitor, all.violating, all.violated, x, error);
+}
+
+int cipc_invariant_limited_triangles(const cipc_model *model)
+{
+    int count = 0;
+    for (int b = 0; b < model->body_count; b++) {
+        const cipc_material *m = &model->bodies[b].material;
+        bool limited = m->strain_limit > 0 || m->strain_lower_limit > 0 || m->membrane == CIPC_MEMBRANE_ORTHOTROPIC;
+        count += limited && model->bodies[b].kind == CIPC_BODY_SHELL ? model->bodies[b].triangle_count : 0;
+    }
+    return count;
 }

@@ -1,7 +1,8 @@
-/* Exact comparison of the largest principal stretch of a triangle with a limit, in integers (SPEC V.5 M3).
+/* Exact comparison of the principal stretches of a triangle with limits, in integers (SPEC V.5 M3).
  *
  * With the first fundamental forms Ibar (rest) and I (now), sigma_1^2 is the largest generalised eigenvalue of (I, Ibar), so
- *   sigma_1 < s  <=>  M = s^2 Ibar - I is positive definite  <=>  M11 > 0 and det M > 0.
+ *   sigma_1 < s  <=>  M = s^2 Ibar - I is positive definite  <=>  M11 > 0 and det M > 0,
+ * and sigma_2 > s if -M is.
  * All entries are polynomials in the doubles given. */
 #include "cipc/oracle.h"
 
@@ -42,7 +43,8 @@ static int definiteness(mpz_t m[3])
     return sign > 0 ? 1 : 0;
 }
 
-int cipc_exact_compare_stretch(const double rest[9], const double x[9], double limit)
+/* Definiteness of M, or of -M. */
+static int compare(const double rest[9], const double x[9], double limit, bool negative)
 {
     if (!cipc_all_finite(rest, 9) || !cipc_all_finite(x, 9) || !isfinite(limit)) { return -1; }
     mpz_t square, now[3], m[3];
@@ -57,8 +59,19 @@ int cipc_exact_compare_stretch(const double rest[9], const double x[9], double l
         mpz_mul(m[i], m[i], square);
         mpz_mul_2exp(now[i], now[i], (mp_bitcnt_t)(-2 * limit_exponent));
         mpz_sub(m[i], m[i], now[i]);
+        if (negative) { mpz_neg(m[i], m[i]); }
     }
     int sign = definiteness(m);
     mpz_clears(square, now[0], now[1], now[2], m[0], m[1], m[2], NULL);
     return sign;
+}
+
+int cipc_exact_compare_stretch(const double rest[9], const double x[9], double limit)
+{
+    return compare(rest, x, limit, false);
+}
+
+int cipc_exact_compare_least_stretch(const double rest[9], const double x[9], double limit)
+{
+    return compare(rest, x, limit, true);
 }
