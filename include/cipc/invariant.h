@@ -75,4 +75,22 @@ cipc_status cipc_monitor_energy(double before, double after, double noise, cipc_
 /* 0 <= residual <= tolerance. */
 cipc_status cipc_monitor_residual(double residual, double tolerance, cipc_error *error);
 
+/* M7: total linear momentum from step to step. What of the model changes it: "gravity", "Dirichlet nodes", "mass damping"; NULL: nothing,
+ * it is conserved. */
+const char *cipc_momentum_source(const cipc_model *model);
+/* How a step was solved: its Newton steps p ended with |p|/h <= tolerance, and v' = (x' - x)/(beta h) + ... */
+typedef struct cipc_momentum_rule {
+    double tolerance;   /* m/s */
+    bool rms;           /* |p| is the root mean square over the nodes; false: the largest */
+    double time_step;   /* h, s */
+    double beta;        /* 1: implicit Euler */
+    int minimisations;  /* one after another in a step, each of them to the tolerance */
+} cipc_momentum_rule;
+/* By how much it may change in a step that ends at x, kg m/s (docs/monitors.md, "The momentum bound"). */
+double cipc_momentum_bound(const cipc_model *model, const double *x, const cipc_momentum_rule *rule);
+/* |sum m v_after - sum m v_before| <= bound, but for the rounding of the sums themselves, which are twofold; velocities [3 * node_count] are
+ * finite or it is violated. *change: the left-hand side, kg m/s. CIPC_E_VIOLATED_MOMENTUM; CIPC_E_OUT_OF_RANGE on a bad bound. */
+cipc_status cipc_monitor_momentum(const cipc_model *model, const double *v_before, const double *v_after, double bound, double *change,
+                                  cipc_error *error);
+
 #endif
