@@ -33,6 +33,7 @@
     X(VIOLATED_INVERSION, 3004, "a defect of the solver: please report it with the state written")                    \
     X(VIOLATED_SWEPT, 3005, "a defect of the solver: please report it with the state written")                        \
     X(VIOLATED_ENERGY, 3006, "a defect of the solver: please report it with the state written")                       \
+    X(VIOLATED_MOMENTUM, 3007, "a defect of the solver: please report it with the state written")                     \
     X(VIOLATED_FINITE, 3008, "a defect of the solver: please report it with the state written")                       \
     X(FAILED_VERDICT, 3010, "look at the worst cases named; cipc eval and cipc judge replay them")                    \
     X(INDETERMINATE, 3009, "the exact arithmetic gave up at its precision cap: please report the state written")

@@ -57,10 +57,18 @@ cipc_verdict cipc_exact_path_minimum(const cipc_stencil_path *path, double t, do
  * s^2 Ibar - I positive definite <=> +1, semi-definite <=> 0, else -1 (Ibar, I: first fundamental forms; all rational). s > 0.
  * Non-finite input proves nothing: -1. */
 int cipc_exact_compare_stretch(const double rest[9], const double x[9], double limit);
-/* Likewise the sign of sigma_2 - s for the least principal stretch: +1 if sigma_2 > s. */
+/* The same of sigma_2 - s for the least one: I - s^2 Ibar. s >= 0. */
 int cipc_exact_compare_least_stretch(const double rest[9], const double x[9], double limit);
-/* Exact sign of limit - |E| for the Green strain E = (f.g - rest)/2 of two directions f = a[0] (x1-x0) + a[1] (x2-x0), g likewise with b. -1 if a number is not finite. */
-int cipc_exact_compare_strain(const double x[9], const double a[2], const double b[2], double rest, double limit);
+
+/* Green strains 1/2 (f.g - d.k) of woven cloth (SPEC C.3): d, k the directions warp and weft, projected onto the plane of the rest triangle, of unit length;
+ * f, g what has become of them. The directions may be of any length; weft 0: across the warp in that plane. */
+typedef enum cipc_green_strain { CIPC_GREEN_WARP = 0, CIPC_GREEN_WEFT, CIPC_GREEN_SHEAR } cipc_green_strain;
+/* Exact sign of L - |E|. L >= 0. 0 when a direction is perpendicular to the triangle: nothing is below L then. Non-finite input: -1. */
+int cipc_exact_compare_green_strain(cipc_green_strain component, const double rest[9], const double x[9], const double warp[3], const double weft[3],
+                                    double limit);
+/* axes: d = axes[0] E1 + axes[1] E2, k = axes[2] E1 + axes[3] E2 with the edges E1, E2 at the first node of the rest triangle; *cosine = d.k. Each number
+ * is the exact one cut to 53 bits: off by less than 2^-52 of itself unless it underflows. False: there is no such direction. */
+bool cipc_exact_fabric_axes(const double rest[9], const double warp[3], const double weft[3], double axes[4], double *cosine);
 
 /* --- values and derivatives (SPEC V.6) ------------------------------------------------------------------------------------------------------ */
 

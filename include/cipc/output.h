@@ -62,6 +62,8 @@ cipc_status cipc_text_write(const char *path, const char *text, cipc_error *erro
 typedef struct cipc_step_invariants {
     long points;                    /* accepted points looked at */
     long energy_checks;             /* of these, points whose energy is comparable with the one before (M6) */
+    long momentum_checks;           /* 1: the step's change of momentum was looked at (M7) */
+    double momentum_change;         /* kg m/s */
     cipc_invariant_report worst;    /* smallest gap, largest stretch; counters are sums */
 } cipc_step_invariants;
 cipc_step_invariants cipc_step_invariants_none(void);
@@ -87,8 +89,13 @@ typedef struct cipc_run_summary {
     bool swept;                     /* the paths between accepted points too (M5) */
     int limited_triangles;          /* of bodies with a strain limit: M3 has something to look at */
     int tetrahedra;                 /* M4 has */
+    const char *momentum_source;    /* why M7 has nothing to say, or NULL */
+    int bodies_apart;               /* pairs of bodies that the scene lets pass through each other */
+    int stitches;
     long points_checked;            /* accepted line-search points that the monitors looked at */
     long energy_checks;             /* of these, points of which M6 could be checked */
+    long momentum_checks;           /* steps of which M7 was */
+    double max_momentum_change;     /* kg m/s, in such a step */
     long newton_iterations, line_search_halvings, friction_passes, symbolic_analyses, factorizations;
     int max_contacts, max_newton_iterations;
     double min_gap, max_stretch, max_stretch_ratio;
@@ -106,7 +113,7 @@ cipc_run_summary cipc_run_summary_default(void);
 /* Add what one step did; invariants NULL: not monitored. */
 void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *report, const cipc_step_invariants *invariants);
 
-/* The verdict on an invariant, 1..8 for M1..M8: "holds", "violated" or "not checked". */
+/* The verdict on an invariant, 1..8 for M1..M8: "holds", "violated" or "not checked" (the file adds momentum_source to that of M7). */
 const char *cipc_run_summary_verdict(const cipc_run_summary *summary, int invariant);
 
 /* summary.json, written atomically. */

@@ -184,6 +184,24 @@ static cipc_status open_run(cipc_simulation *s, cipc_error *error)
     return status;
 }
 
+/* ---- The summary ---------------------------------------------------------------------------------------------------------- */
+
+/* Why M7 has nothing to say, or NULL. */
+static const char *momentum_source(const cipc_scene *scene)
+{
+    return scene->options.quasistatic ? "quasistatic steps" : cipc_momentum_source(scene->model);
+}
+
+/* Pairs of bodies that pass through each other, a body and itself included. */
+static int count_apart(const cipc_model *model)
+{
+    int count = 0;
+    for (int a = 0; a < model->body_count; a++) {
+        for (int b = a; b < model->body_count; b++) { count += model->pair_apart[a * model->body_count + b] ? 1 : 0; }
+    }
+    return count;
+}
+
 /* ---- The whole ------------------------------------------------------------------------------------------------------------ */
 
 static void begin_summary(cipc_simulation *s)
@@ -198,12 +216,12 @@ static void begin_summary(cipc_simulation *s)
     s->summary.monitored = s->request->monitor;
     s->summary.swept = s->request->monitor && scene->monitor_swept;
     s->summary.tetrahedra = scene->model->tetrahedron_count;
+    s->summary.momentum_source = momentum_source(scene);
+    s->summary.bodies_apart = count_apart(scene->model);
+    s->summary.stitches = scene->model->stitch_count;
     s->summary.threads = scene->options.threads;
     s->summary.seed = scene->seed;
-    for (int b = 0; b < scene->model->body_count; b++) {
-        const cipc_body *body = &scene->model->bodies[b];
-        s->summary.limited_triangles += body->material.strain_limit > 0 ? body->triangle_count : 0;
-    }
+    s->summary.limited_triangles = cipc_invariant_limited_triangles(scene->model);
 }
 
 /* Everything that can be wrong with the input, before the output folder is touched. */
@@ -222,14 +240,15 @@ static void say_interrupted(const cipc_simulation *s)
             s->scene->state->step < s->summary.steps_taken ? s->scene->state->step : s->summary.steps_taken, s->scene->steps);
 }
 
-/* Room for the point accepted before, for the swept monitor. */
-static cipc_status prepare_paths(cipc_simulation *s)
+/* Room for the point accepted before, for the swept monitor, and for the velocities before a step, for that of momentum. */
+static cipc_status prepare_memory(cipc_simulation *s)
 {
-    if (s->monitor == NULL || !s->scene->monitor_swept) {
-        return CIPC_OK;
-    }
-    s->previous = cipc_alloc(3 * (size_t)s->scene->model->node_count, sizeof *s->previous);
-    return s->previous != NULL ? CIPC_OK : cipc_fail(&s->error, CIPC_E_OUT_OF_MEMORY, "run", "no memory for the paths' starts");
+    const size_t count = 3 * (size_t)s->scene->model->node_count;
+    const bool swept = s->monitor != NULL && s->scene->monitor_swept, momentum = s->monitor != NULL && s->summary.momentum_source == NULL;
+    if (swept) { s->previous = cipc_alloc(count, sizeof *s->previous); }
+    if (momentum) { s->velocity = cipc_alloc(count, sizeof *s->velocity); }
+    const bool good = (!swept || s->previous != NULL) && (!momentum || s->velocity != NULL);
+    return good ? CIPC_OK : cipc_fail(&s->error, CIPC_E_OUT_OF_MEMORY, "run", "no memory for the state before a step");
 }
 
 static int run_to_the_end(cipc_simulation *s)
@@ -242,7 +261,7 @@ static int run_to_the_end(cipc_simulation *s)
         cipc_monitor_destroy(s->monitor);
         s->monitor = NULL;
     }
-    status = prepare_paths(s);
+    status = prepare_memory(s);
     if (status == CIPC_OK) {
         status = cipc_simulation_steps(s);
     }
@@ -272,6 +291,7 @@ static void clear(cipc_simulation *s)
     cipc_stepper_destroy(s->stepper);
     cipc_monitor_destroy(s->monitor);
     cipc_free(s->previous);
+    cipc_free(s->velocity);
     if (s->stats != NULL) {
         fclose(s->stats); /* every line was flushed and checked */
     }

@@ -25,6 +25,7 @@ typedef struct cipc_simulation {
     cipc_run_summary summary;
     cipc_step_invariants seen;       /* of the step under way */
     double *previous;                /* 3 * node_count: the point accepted before, where the next path begins; NULL: paths are not checked */
+    double *velocity;                /* 3 * node_count: before the step under way; NULL: momentum is not checked */
     int first_step;                  /* that this process began with */
     double begin, earlier_seconds;   /* of this process; of those it goes on from */
     bool interrupted;

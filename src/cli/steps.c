@@ -86,12 +86,29 @@ static cipc_status look(void *context, const cipc_accepted_point *point, cipc_er
     return s->monitor != NULL ? check_point(s, point, error) : CIPC_OK;
 }
 
-/* What holds of a whole step: it converged to the tolerance; and where it ends has been looked at, and the path there, accepted points or none. */
+/* M7: the step ends with about the momentum it began with. */
+static cipc_status check_momentum(cipc_simulation *s, cipc_error *error)
+{
+    const cipc_state *state = s->scene->state;
+    const cipc_implicit_options *o = &s->scene->options;
+    const cipc_momentum_rule rule = {.tolerance = o->newton_tolerance, .rms = o->newton_norm == CIPC_NORM_RMS, .time_step = o->time_step,
+                                     .beta = o->integrator.beta, .minimisations = o->strain_coupling == CIPC_STRAIN_SPLIT ? 2 : 1};
+    const double bound = cipc_momentum_bound(s->scene->model, state->position, &rule);
+    cipc_status status = cipc_monitor_momentum(s->scene->model, s->velocity, state->velocity, bound, &s->seen.momentum_change, error);
+    s->seen.momentum_checks = status == CIPC_OK ? 1 : 0;
+    return status;
+}
+
+/* What holds of a whole step: it converged to the tolerance, and kept its momentum if nothing changes that; and where it ends has been looked at, and the
+ * path there, accepted points or none. */
 static cipc_status check_step(cipc_simulation *s, const cipc_step_report *report, cipc_error *error)
 {
     const cipc_accepted_point end = {
         .x = s->scene->state->position, .step = s->scene->state->step - 1, .iteration = report->newton_iterations - 1};
     cipc_status status = cipc_monitor_residual(report->residual, s->scene->options.newton_tolerance, error);
+    if (status == CIPC_OK && s->velocity != NULL) {
+        status = check_momentum(s, error);
+    }
     if (status != CIPC_OK) {
         return report_violation(s, &end, NULL, error);
     }
@@ -156,6 +173,9 @@ static cipc_status take_step(cipc_simulation *s)
     s->seen = cipc_step_invariants_none();
     if (s->previous != NULL) { /* the step's first path begins where the last step ended */
         memcpy(s->previous, s->scene->state->position, 3 * (size_t)s->scene->model->node_count * sizeof *s->previous);
+    }
+    if (s->velocity != NULL) {
+        memcpy(s->velocity, s->scene->state->velocity, 3 * (size_t)s->scene->model->node_count * sizeof *s->velocity);
     }
     cipc_status status = cipc_step(s->stepper, s->scene->state, &report, &s->error);
     if (status == CIPC_OK && s->monitor != NULL) {

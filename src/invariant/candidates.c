@@ -1,4 +1,4 @@
-/* Candidate pairs of the monitors M1 and M2, made by a broad phase of their own and kept while nothing has moved far. */
+/* Candidate pairs of the monitors M1, M2 and M5, made by a broad phase of their own and kept while nothing has moved far. */
 #include "invariant/candidates.h"
 
 #include <float.h>
@@ -18,8 +18,13 @@ enum { PART_SIZE = 16 };
 #define SMALLEST_SQUARE 0x1p-600
 
 /* The kinds of primitives of the two sides of a candidate kind. */
-static const int sides[CIPC_CANDIDATE_KINDS][2] = {{CIPC_POINTS, CIPC_TRIANGLES}, {CIPC_EDGES, CIPC_EDGES}, {CIPC_EDGES, CIPC_TRIANGLES},
-                                                   {CIPC_LOOSE_POINTS, CIPC_SEGMENTS}, {CIPC_PARTICLES, CIPC_PARTICLES}};
+static const int sides[CIPC_CANDIDATE_KINDS][2] = {
+    [CIPC_CANDIDATE_POINT_POINT] = {CIPC_PARTICLES, CIPC_PARTICLES},
+    [CIPC_CANDIDATE_POINT_EDGE] = {CIPC_ENDS, CIPC_SEGMENTS},
+    [CIPC_CANDIDATE_POINT_TRIANGLE] = {CIPC_POINTS, CIPC_TRIANGLES},
+    [CIPC_CANDIDATE_EDGE_EDGE] = {CIPC_EDGES, CIPC_EDGES},
+    [CIPC_CANDIDATE_EDGE_TRIANGLE] = {CIPC_EDGES, CIPC_TRIANGLES},
+};
 
 double invariant_candidates_offset(const cipc_model *model, int node_a, int node_b)
 {
@@ -36,45 +41,16 @@ void cipc_gather(double *stencil, const double *x, const int *nodes, int n)
     }
 }
 
-cipc_pair_kind invariant_candidates_nodes(const invariant_candidates *c, invariant_candidate_kind kind, const int pair[2], int nodes[4])
+double invariant_candidates_nodes(const cipc_model *model, cipc_pair_kind kind, const int pair[2], int nodes[4])
 {
-    static const cipc_pair_kind kinds[CIPC_CANDIDATE_KINDS] = {CIPC_POINT_TRIANGLE, CIPC_EDGE_EDGE, CIPC_PAIR_KIND_COUNT, CIPC_POINT_EDGE, CIPC_POINT_POINT};
-    int count = 0;
-    for (int side = 0; side < 2; side++) {
-        const cipc_primitives *p = &c->primitives[sides[kind][side]];
-        for (int i = 0; i < p->size; i++) { nodes[count++] = p->nodes[p->size * pair[side] + i]; }
-    }
-    while (count < 4) { nodes[count++] = -1; }
-    return kinds[kind];
-}
-
-bool invariant_candidates_stencil(cipc_pair_kind kind, const double *x, const int nodes[4], double stencil[12])
-{
-    if (kind == CIPC_POINT_TRIANGLE || kind == CIPC_EDGE_EDGE) {
-        cipc_gather(stencil, x, nodes, 4);
-        return kind == CIPC_EDGE_EDGE;
-    }
-    const int edges[4] = {nodes[0], nodes[0], nodes[1], kind == CIPC_POINT_EDGE ? nodes[2] : nodes[1]};
-    cipc_gather(stencil, x, edges, 4);
-    return true;
-}
-
-int invariant_candidates_compare(cipc_pair_kind kind_a, const int nodes_a[4], cipc_pair_kind kind_b, const int nodes_b[4])
-{
-    static const int rank[CIPC_PAIR_KIND_COUNT] = {[CIPC_POINT_TRIANGLE] = 0, [CIPC_EDGE_EDGE] = 1, [CIPC_POINT_EDGE] = 2, [CIPC_POINT_POINT] = 3};
-    if (kind_a != kind_b) { return rank[kind_a] < rank[kind_b] ? -1 : 1; }
-    for (int i = 0; i < 4; i++) {
-        if (nodes_a[i] != nodes_b[i]) { return nodes_a[i] < nodes_b[i] ? -1 : 1; }
-    }
-    return 0;
+    int na = cipc_pair_first_nodes(kind), nb = cipc_pair_nodes(kind) - na;
+    const int *a = na == 2 ? model->edges[pair[0]] : &pair[0];
+    const int *b = nb == 3 ? model->triangles[pair[1]] : nb == 2 ? model->edges[pair[1]] : &pair[1];
+    for (int i = 0; i < 4; i++) { nodes[i] = i < na ? a[i] : i < na + nb ? b[i - na] : -1; }
+    return invariant_candidates_offset(model, a[0], b[0]);
 }
 
 /* --- creation --- */
-
-static int parts_of(int count)
-{
-    return (count + PART_SIZE - 1) / PART_SIZE;
-}
 
 static const cipc_primitives *first_side(const invariant_candidates *c, invariant_candidate_kind kind)
 {
@@ -86,16 +62,23 @@ static const cipc_primitives *second_side(const invariant_candidates *c, invaria
     return &c->primitives[sides[kind][1]];
 }
 
+/* Patches of the first side of a kind; none if there is nothing to meet. */
+static int asking_patches(const invariant_candidates *c, invariant_candidate_kind kind)
+{
+    const cipc_primitives *first = first_side(c, kind);
+    return first->count > 0 && second_side(c, kind)->count > 0 ? first->tree.patch_count[0] : 0;
+}
+
 static bool make_parts(invariant_candidates *c)
 {
     for (int kind = 0; kind < CIPC_CANDIDATE_KINDS; kind++) {
-        c->part_count += parts_of(first_side(c, (invariant_candidate_kind)kind)->tree.patch_count[0]);
+        c->part_count += (asking_patches(c, (invariant_candidate_kind)kind) + PART_SIZE - 1) / PART_SIZE;
     }
     c->parts = cipc_alloc((size_t)c->part_count, sizeof *c->parts);
     if (c->parts == NULL) { return false; }
     invariant_candidate_part *part = c->parts;
     for (int kind = 0; kind < CIPC_CANDIDATE_KINDS; kind++) {
-        int count = first_side(c, (invariant_candidate_kind)kind)->tree.patch_count[0];
+        int count = asking_patches(c, (invariant_candidate_kind)kind);
         for (int first = 0; first < count; first += PART_SIZE, part++) {
             part->kind = (invariant_candidate_kind)kind;
             part->first = first;
@@ -116,14 +99,19 @@ static bool all_fixed(const bool *fixed, const int *nodes, int n)
 static bool init_primitives(invariant_candidates *c, cipc_primitives *p, int kind)
 {
     const cipc_model *m = c->model;
-    static const int sizes[CIPC_PRIMITIVE_KINDS] = {1, 2, 3, 1, 2, 1};
-    const int *segments = m->segment_count > 0 ? (const int *)(m->edges + m->first_segment) : NULL;
-    const int *const nodes[] = {c->point_nodes, (const int *)m->edges, (const int *)m->triangles, c->loose_nodes, segments, c->particle_nodes};
-    const int count[] = {c->primitives[CIPC_POINTS].count, m->edge_count, m->triangle_count, c->primitives[CIPC_LOOSE_POINTS].count, m->segment_count,
-                         c->primitives[CIPC_PARTICLES].count};
-    p->count = count[kind];
-    p->size = sizes[kind];
-    p->nodes = nodes[kind];
+    if (kind < CIPC_EDGES) {
+        p->nodes = c->nodes[kind];
+        p->size = 1; /* the number is counted already */
+    } else if (kind == CIPC_TRIANGLES) {
+        p->nodes = (const int *)m->triangles;
+        p->size = 3;
+        p->count = m->triangle_count;
+    } else {
+        p->first = kind == CIPC_SEGMENTS ? m->first_segment : 0;
+        p->nodes = m->edge_count > 0 ? m->edges[p->first] : NULL;
+        p->size = 2;
+        p->count = kind == CIPC_SEGMENTS ? m->segment_count : m->edge_count;
+    }
     p->order = cipc_alloc((size_t)p->count, sizeof *p->order);
     if (!cipc_patch_tree_init(&p->tree, p->count) || p->order == NULL ||
         !cipc_rest_order(p->order, m, p->nodes, p->size, p->count, c->fixed)) {
@@ -133,23 +121,34 @@ static bool init_primitives(invariant_candidates *c, cipc_primitives *p, int kin
     return true;
 }
 
-/* Put a node on the lists of points that it belongs to. */
-static void list_point(invariant_candidates *c, int node)
+/* Is the node one of the primitives of this kind? Models made by hand may leave `interior` out. */
+static bool is_of_kind(const cipc_model *m, int node, int kind)
 {
-    const cipc_model *m = c->model;
-    cipc_body_kind kind = m->bodies[m->node_body[node]].kind;
-    bool particle = kind == CIPC_BODY_PARTICLES, interior = m->interior != NULL && m->interior[node];
-    if (!interior) { c->point_nodes[c->primitives[CIPC_POINTS].count++] = node; }
-    if (particle || kind == CIPC_BODY_RODS) { c->loose_nodes[c->primitives[CIPC_LOOSE_POINTS].count++] = node; }
-    if (particle) { c->particle_nodes[c->primitives[CIPC_PARTICLES].count++] = node; }
+    cipc_body_kind body = m->bodies[m->node_body[node]].kind;
+    if (kind == CIPC_POINTS) { return m->interior == NULL || !m->interior[node]; }
+    return body == CIPC_BODY_PARTICLES || (kind == CIPC_ENDS && body == CIPC_BODY_RODS);
 }
 
-static bool any_apart(const cipc_model *m)
+static bool list_nodes(invariant_candidates *c)
 {
-    for (int i = 0; m->pair_apart != NULL && i < m->body_count * m->body_count; i++) {
-        if (m->pair_apart[i]) { return true; }
+    const cipc_model *m = c->model;
+    for (int kind = 0; kind < CIPC_EDGES; kind++) {
+        cipc_primitives *p = &c->primitives[kind];
+        for (int i = 0; i < m->node_count; i++) { p->count += is_of_kind(m, i, kind) ? 1 : 0; }
+        c->nodes[kind] = cipc_alloc((size_t)p->count, sizeof *c->nodes[kind]);
+        if (c->nodes[kind] == NULL) { return false; }
+        for (int i = 0, n = 0; i < m->node_count; i++) {
+            if (is_of_kind(m, i, kind)) { c->nodes[kind][n++] = i; }
+        }
     }
-    return m->link_count > 0;
+    return true;
+}
+
+static bool some_pass(const cipc_model *m)
+{
+    bool any = m->link_count > 0;
+    for (int i = 0; m->pair_apart != NULL && i < m->body_count * m->body_count; i++) { any = any || m->pair_apart[i]; }
+    return any;
 }
 
 bool invariant_candidates_init(invariant_candidates *c, const cipc_model *model, double reach, double margin, int threads, bool skip_fixed)
@@ -160,20 +159,14 @@ bool invariant_candidates_init(invariant_candidates *c, const cipc_model *model,
     c->margin = margin;
     c->threads = threads;
     size_t n = (size_t)model->node_count;
-    c->point_nodes = cipc_alloc(n, sizeof *c->point_nodes);
-    c->loose_nodes = cipc_alloc(n, sizeof *c->loose_nodes);
-    c->particle_nodes = cipc_alloc(n, sizeof *c->particle_nodes);
+    c->some_pass = some_pass(model);
     c->fixed = cipc_alloc(n, sizeof *c->fixed);
     c->made_at = cipc_alloc(3 * n, sizeof *c->made_at);
-    if (c->point_nodes == NULL || c->loose_nodes == NULL || c->particle_nodes == NULL || c->fixed == NULL || c->made_at == NULL) { return false; }
-    for (int i = 0; i < model->node_count; i++) {
-        list_point(c, i);
-        c->fixed[i] = skip_fixed && model->bodies[model->node_body[i]].fixed;
-    }
+    if (c->fixed == NULL || c->made_at == NULL || !list_nodes(c)) { return false; }
+    for (int i = 0; i < model->node_count; i++) { c->fixed[i] = skip_fixed && model->bodies[model->node_body[i]].fixed; }
     for (int kind = 0; kind < CIPC_PRIMITIVE_KINDS; kind++) {
         if (!init_primitives(c, &c->primitives[kind], kind)) { return false; }
     }
-    c->filtered = any_apart(model);
     return make_parts(c);
 }
 
@@ -187,9 +180,7 @@ void invariant_candidates_free(invariant_candidates *c)
         cipc_free(c->parts[i].pairs);
         cipc_free(c->parts[i].patches.places);
     }
-    cipc_free(c->point_nodes);
-    cipc_free(c->loose_nodes);
-    cipc_free(c->particle_nodes);
+    for (int kind = 0; kind < CIPC_EDGES; kind++) { cipc_free(c->nodes[kind]); }
     cipc_free(c->fixed);
     cipc_free(c->made_at);
     cipc_free(c->parts);
@@ -242,33 +233,26 @@ static void make_boxes(const invariant_candidates *c, int kind, const double *x,
 
 /* --- pairs --- */
 
-/* Do the primitives share a node? Lower edge first; without branches, for this is asked of every pair of boxes that overlap. */
-static bool is_incident(invariant_candidate_kind kind, const int *a, const int *b)
+/* Do the primitives share a node? With few branches, for this is asked of every pair of boxes that overlap. */
+static bool is_incident(const int *a, int na, const int *b, int nb)
 {
-    if (kind == CIPC_CANDIDATE_POINT_POINT) { return false; }
-    if (kind == CIPC_CANDIDATE_POINT_EDGE) { return (a[0] == b[0]) | (a[0] == b[1]); }
-    bool shared = (a[0] == b[0]) | (a[0] == b[1]);
-    if (kind != CIPC_CANDIDATE_POINT_TRIANGLE) { shared |= (a[1] == b[0]) | (a[1] == b[1]); }
-    if (kind != CIPC_CANDIDATE_EDGE_EDGE) { shared |= a[0] == b[2]; }
-    return kind == CIPC_CANDIDATE_EDGE_TRIANGLE ? shared | (a[1] == b[2]) : shared;
+    bool shared = a[0] == b[0];
+    if (nb > 1) { shared |= a[0] == b[1]; }
+    if (nb > 2) { shared |= a[0] == b[2]; }
+    if (na > 1) { shared |= (a[1] == b[0]) | (a[1] == b[1]); }
+    return na > 1 && nb > 2 ? shared | (a[1] == b[2]) : shared;
 }
 
 /* Is the pair proven to be so far apart that it stays out of reach while the lists serve? */
 static bool is_out_of_reach(const invariant_candidates *c, invariant_candidate_kind kind, const int *a, int na, const int *b, int nb,
                             const double *x)
 {
-    double stencil[15], enough = (invariant_candidates_offset(c->model, a[0], b[0]) + c->reach + c->margin) * ROUND_UP;
-    if (kind == CIPC_CANDIDATE_POINT_EDGE || kind == CIPC_CANDIDATE_POINT_POINT) {
-        const int nodes[4] = {a[0], b[0], nb > 1 ? b[1] : -1, -1};
-        (void)invariant_candidates_stencil(nb > 1 ? CIPC_POINT_EDGE : CIPC_POINT_POINT, x, nodes, stencil);
-        return cipc_separate_edge_edge(stencil, enough).lower > enough;
-    }
+    double stencil[15];
     cipc_gather(stencil, x, a, na);
     cipc_gather(&stencil[3 * na], x, b, nb);
     if (kind == CIPC_CANDIDATE_EDGE_TRIANGLE) { return cipc_edge_triangle_far(stencil, &stencil[6], c->margin); }
-    cipc_separation s =
-        kind == CIPC_CANDIDATE_POINT_TRIANGLE ? cipc_separate_point_triangle(stencil, enough) : cipc_separate_edge_edge(stencil, enough);
-    return s.lower > enough;
+    double enough = (invariant_candidates_offset(c->model, a[0], b[0]) + c->reach + c->margin) * ROUND_UP;
+    return cipc_separate((cipc_pair_kind)kind, stencil, enough).lower > enough;
 }
 
 static bool append_pair(invariant_candidate_part *part, int a, int b)
@@ -286,24 +270,29 @@ static bool append_pair(invariant_candidate_part *part, int a, int b)
     return true;
 }
 
-/* Keep primitive a of the first side and b of the second, unless they share a node or are proven out of reach. */
+static int number_of(const cipc_primitives *p, int item)
+{
+    return p->size == 1 ? p->nodes[item] : p->first + item;
+}
+
+/* Keep primitive a of the first side and b of the second, unless they share a node, pass through each other or are proven out of reach. */
 static bool offer_pair(const invariant_candidates *c, invariant_candidate_part *part, int a, int b, const double *x)
 {
     const cipc_primitives *pa = first_side(c, part->kind), *pb = second_side(c, part->kind);
-    if ((part->kind == CIPC_CANDIDATE_EDGE_EDGE || part->kind == CIPC_CANDIDATE_POINT_POINT) && b < a) {
+    if (pa == pb && b < a) {
         int swap = a;
         a = b;
         b = swap;
     }
     const int *na = &pa->nodes[pa->size * a], *nb = &pb->nodes[pb->size * b];
-    bool skip = is_incident(part->kind, na, nb);
-    skip = skip || (c->filtered && !cipc_model_meet(c->model, na, pa->size, nb, pb->size));
+    bool skip = is_incident(na, pa->size, nb, pb->size);
+    skip = skip || (c->some_pass && !cipc_model_meet(c->model, na, pa->size, nb, pb->size));
     skip = skip || (c->sweep_to == NULL && is_out_of_reach(c, part->kind, na, pa->size, nb, pb->size, x));
-    return skip || append_pair(part, a, b);
+    return skip || append_pair(part, number_of(pa, a), number_of(pb, b));
 }
 
 /* The places of the second side that the primitive at `place` of the first is to meet, [begin, end). The fixed come last in the order: a
- * moving primitive meets all, a fixed one the moving only; an edge meets the edges after it. */
+ * moving primitive meets all, a fixed one the moving only; among primitives of one kind each meets those after it. */
 typedef struct place_range {
     int begin, end;
 } place_range;

@@ -1,6 +1,6 @@
-/* Candidate pairs of the monitors M1 and M2: every point-triangle and edge-edge pair that may be within xi + reach, every edge-triangle
- * pair that may meet, found without any code of the solver. The lists reach `margin` further than asked and serve until a node has moved
- * more than half of it. */
+/* Candidate pairs of the monitors M1, M2 and M5: every pair of primitives that may be within xi + reach, every edge-triangle pair that may
+ * meet, found without any code of the solver. The lists reach `margin` further than asked and serve until a node has moved more than half
+ * of it. */
 #ifndef CIPC_INVARIANT_CANDIDATES_H
 #define CIPC_INVARIANT_CANDIDATES_H
 
@@ -9,24 +9,26 @@
 #include "cipc/model.h"
 #include "invariant/patch_tree.h"
 
-/* The primitives of one dimension, all bodies together. */
+/* The primitives of one kind, all bodies together. */
 typedef struct cipc_primitives {
     int count, size;  /* size: nodes of one, 1..3 */
     const int *nodes; /* count * size */
+    int first;        /* of edges and triangles: the model's number of the first one */
     int *order;       /* item at each place of the tree: those that are not fixed first, then by body, then along the rest shape */
     int moving;       /* the first `moving` places are those that are not fixed (all, if fixed pairs count) */
     cipc_patch_tree tree;
 } cipc_primitives;
 
-/* Points: nodes that are not inside volumes. Loose points: those of rods and particles, which edge-edge pairs alone do not keep apart where a particle has no edge. */
-enum { CIPC_POINTS = 0, CIPC_EDGES, CIPC_TRIANGLES, CIPC_LOOSE_POINTS, CIPC_SEGMENTS, CIPC_PARTICLES, CIPC_PRIMITIVE_KINDS };
+/* Points: all nodes but those inside volumes. Ends: nodes of rods, and particles. */
+enum { CIPC_POINTS = 0, CIPC_ENDS, CIPC_PARTICLES, CIPC_EDGES, CIPC_SEGMENTS, CIPC_TRIANGLES, CIPC_PRIMITIVE_KINDS };
 
+/* The kinds of pairs whose distance counts, numbered as cipc_pair_kind, and that of M1. */
 typedef enum invariant_candidate_kind {
-    CIPC_CANDIDATE_POINT_TRIANGLE = 0,
-    CIPC_CANDIDATE_EDGE_EDGE,
-    CIPC_CANDIDATE_EDGE_TRIANGLE,
-    CIPC_CANDIDATE_POINT_EDGE,  /* loose points and segments */
-    CIPC_CANDIDATE_POINT_POINT, /* particles */
+    CIPC_CANDIDATE_POINT_POINT = CIPC_POINT_POINT,
+    CIPC_CANDIDATE_POINT_EDGE = CIPC_POINT_EDGE,
+    CIPC_CANDIDATE_POINT_TRIANGLE = CIPC_POINT_TRIANGLE,
+    CIPC_CANDIDATE_EDGE_EDGE = CIPC_EDGE_EDGE,
+    CIPC_CANDIDATE_EDGE_TRIANGLE = CIPC_PAIR_KIND_COUNT,
     CIPC_CANDIDATE_KINDS
 } invariant_candidate_kind;
 
@@ -35,7 +37,7 @@ typedef enum invariant_candidate_kind {
 typedef struct invariant_candidate_part {
     invariant_candidate_kind kind;
     int first, last;
-    int (*pairs)[2]; /* first primitive (lower edge index first), second primitive */
+    int (*pairs)[2]; /* the model's numbers of the nodes, edges or triangles; of two nodes or two edges the lower first */
     int count, capacity;
     cipc_place_list patches; /* scratch: patches of the second side near a patch of the first */
     bool failed;
@@ -45,9 +47,9 @@ typedef struct invariant_candidates {
     const cipc_model *model;
     double reach, margin;
     int threads;
-    int *point_nodes, *loose_nodes, *particle_nodes; /* the nodes that are points of each kind */
-    bool filtered; /* some pairs that share no node do not meet: bodies apart, or stitches */
-    bool *fixed;      /* of a node: in a fixed body, and fixed pairs do not count */
+    int *nodes[CIPC_EDGES]; /* of points, ends and particles, ascending */
+    bool *fixed;            /* of a node: in a fixed body, and fixed pairs do not count */
+    bool some_pass;         /* bodies that are apart, or nodes sewn together */
     cipc_primitives primitives[CIPC_PRIMITIVE_KINDS];
     invariant_candidate_part *parts;
     int part_count;
@@ -66,19 +68,14 @@ bool invariant_candidates_update(invariant_candidates *c, const double *x, bool 
 
 /* Do the lists serve for x as they are? */
 bool invariant_candidates_valid(const invariant_candidates *c, const double *x);
-/* Make lists of all point-triangle and edge-edge pairs that may come within xi + reach of one another while every node moves straight from its place in `from`
+/* Make lists of all pairs, but edge-triangle ones, that may come within xi + reach of one another while every node moves straight from its place in `from`
  * to that in `to` (both finite). They serve for this once. False: out of memory. */
 bool invariant_candidates_sweep(invariant_candidates *c, const double *from, const double *to);
 
-/* The pair of primitives that a candidate of point-triangle, edge-edge, point-edge or point-point stands for, and its nodes; unused ones -1. */
-cipc_pair_kind invariant_candidates_nodes(const invariant_candidates *c, invariant_candidate_kind kind, const int pair[2], int nodes[4]);
-/* Positions of such a pair for a certified separation: as it is, or with a point as an edge of no length. True: edge-edge. */
-bool invariant_candidates_stencil(cipc_pair_kind kind, const double *x, const int nodes[4], double stencil[12]);
-/* Before and after in the order in which pairs are reported: by kind, then by nodes. */
-int invariant_candidates_compare(cipc_pair_kind kind_a, const int nodes_a[4], cipc_pair_kind kind_b, const int nodes_b[4]);
-
 /* Contact thickness of the pair of these nodes' bodies (SPEC C.4, eq. 11), m. */
 double invariant_candidates_offset(const cipc_model *model, int node_a, int node_b);
+/* The nodes of a pair that is not edge-triangle, first primitive first, -1 where it has fewer than four. Returns its thickness, m. */
+double invariant_candidates_nodes(const cipc_model *model, cipc_pair_kind kind, const int pair[2], int nodes[4]);
 /* Copy the positions of n nodes. */
 void cipc_gather(double *stencil, const double *x, const int *nodes, int n);
 

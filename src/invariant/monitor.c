@@ -26,27 +26,27 @@ int cipc_monitor_sections(int count)
     return (count + CIPC_MONITOR_SECTION - 1) / CIPC_MONITOR_SECTION;
 }
 
-void cipc_monitor_pair_text(const cipc_model *m, cipc_pair_kind kind, const int n[4], char text[CIPC_PAIR_TEXT_SIZE])
-{
-    const char *a = cipc_monitor_body(m, n[0]), *b = cipc_monitor_body(m, n[cipc_pair_nodes(kind) - 1]);
-    switch (kind) {
-    case CIPC_EDGE_EDGE:
-        snprintf(text, CIPC_PAIR_TEXT_SIZE, "edge (nodes %d %d, body \"%s\") and edge (nodes %d %d, body \"%s\")", n[0], n[1], a, n[2], n[3], b);
-        break;
-    case CIPC_POINT_TRIANGLE:
-        snprintf(text, CIPC_PAIR_TEXT_SIZE, "node %d (body \"%s\") and triangle (nodes %d %d %d, body \"%s\")", n[0], a, n[1], n[2], n[3], b);
-        break;
-    case CIPC_POINT_EDGE:
-        snprintf(text, CIPC_PAIR_TEXT_SIZE, "node %d (body \"%s\") and segment (nodes %d %d, body \"%s\")", n[0], a, n[1], n[2], b);
-        break;
-    default:
-        snprintf(text, CIPC_PAIR_TEXT_SIZE, "node %d (body \"%s\") and node %d (body \"%s\")", n[0], a, n[1], b);
-    }
-}
-
 const char *cipc_monitor_body(const cipc_model *model, int node)
 {
     return model->bodies[model->node_body[node]].name;
+}
+
+/* One primitive of n nodes; returns the length of the text, which has room in half of a pair's. */
+static int name_primitive(char *text, size_t size, const cipc_model *model, const int *nodes, int n)
+{
+    const char *body = cipc_monitor_body(model, nodes[0]);
+    if (n == 1) { return snprintf(text, size, "node %d (body \"%s\")", nodes[0], body); }
+    if (n == 2) { return snprintf(text, size, "edge (nodes %d %d, body \"%s\")", nodes[0], nodes[1], body); }
+    return snprintf(text, size, "triangle (nodes %d %d %d, body \"%s\")", nodes[0], nodes[1], nodes[2], body);
+}
+
+void cipc_monitor_name_pair(char text[CIPC_MONITOR_PAIR_SIZE], const cipc_model *model, cipc_pair_kind kind, const int nodes[4])
+{
+    size_t used = 0;
+    int na = cipc_pair_first_nodes(kind);
+    used += (size_t)name_primitive(text, CIPC_MONITOR_PAIR_SIZE, model, nodes, na);
+    used += (size_t)snprintf(&text[used], CIPC_MONITOR_PAIR_SIZE - used, " and ");
+    name_primitive(&text[used], CIPC_MONITOR_PAIR_SIZE - used, model, &nodes[na], cipc_pair_nodes(kind) - na);
 }
 
 static cipc_status check_options(const cipc_invariant_options *o, cipc_error *error)
@@ -74,7 +74,7 @@ cipc_status cipc_monitor_create(cipc_monitor **monitor, const cipc_model *model,
         cipc_monitor_destroy(m);
         return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, place, "no memory for the broad phase of %d nodes", model->node_count);
     }
-    cipc_strain_rest_init(m->rest, model);
+    for (int t = 0; t < model->triangle_count; t++) { cipc_strain_rest_init(&m->rest[t], model, t); }
     *monitor = m;
     return CIPC_OK;
 }

@@ -4,18 +4,7 @@
 
 #include "cipc/invariant.h"
 #include "invariant/candidates.h"
-
-/* What M3 keeps of a triangle at rest. */
-typedef struct cipc_strain_rest {
-    double form[3];    /* first fundamental form Ibar: |E1|^2, E1.E2, |E2|^2 */
-    double inverse[4]; /* rows of the inverse of the 2 x 2 matrix of E1, E2 in an orthonormal frame of the rest triangle */
-    double limit;      /* s; 0: not limited */
-    double lower;      /* lower limit; 0: not limited */
-    double directions[2][2]; /* warp and weft as coefficients on the edges; zeros: not orthotropic */
-    double cosine;           /* of the two at rest */
-    double strain_limits[3]; /* of E11, E22, E12; 0: not limited */
-    bool measured;     /* counts for max_stretch */
-} cipc_strain_rest;
+#include "invariant/strain_limits.h"
 
 struct cipc_monitor {
     const cipc_model *model;
@@ -25,9 +14,6 @@ struct cipc_monitor {
     cipc_strain_rest *rest; /* triangle_count */
 };
 
-/* Fill rest[triangle_count]. (strain.c) */
-void cipc_strain_rest_init(cipc_strain_rest *rest, const cipc_model *model);
-
 /* M8, then valid lists for x; *report gets lists_made. */
 cipc_status cipc_monitor_prepare(cipc_monitor *monitor, const double *x, cipc_invariant_report *report, cipc_error *error);
 
@@ -35,11 +21,11 @@ cipc_status cipc_monitor_prepare(cipc_monitor *monitor, const double *x, cipc_in
 enum { CIPC_MONITOR_SECTION = 1024 };
 int cipc_monitor_sections(int count);
 
-/* A pair with its nodes and bodies, for a message. */
-enum { CIPC_PAIR_TEXT_SIZE = 2 * CIPC_NAME_SIZE + 128 };
-void cipc_monitor_pair_text(const cipc_model *model, cipc_pair_kind kind, const int nodes[4], char text[CIPC_PAIR_TEXT_SIZE]);
-
 /* Name of the body a node belongs to. */
 const char *cipc_monitor_body(const cipc_model *model, int node);
+
+/* A pair in words: "node 3 (body "dust") and edge (nodes 4 5, body "rope")". */
+enum { CIPC_MONITOR_PAIR_SIZE = 2 * CIPC_NAME_SIZE + 128 };
+void cipc_monitor_name_pair(char text[CIPC_MONITOR_PAIR_SIZE], const cipc_model *model, cipc_pair_kind kind, const int nodes[4]);
 
 #endif

@@ -112,6 +112,58 @@ static void keep_better(cipc_separation *best, double lower, double upper, doubl
     best->tight = is_tight(best->lower, best->upper, size);
 }
 
+/* The nodes of a stencil relative to its first one. Returns the largest coordinate. */
+static inline double relative_to_first(double y[][3], const double *x, int others)
+{
+    double size = 0;
+    for (int i = 0; i < others; i++) {
+        v3_sub(y[i], &x[3 * i + 3], x);
+        size = largest(size, y[i]);
+    }
+    return size;
+}
+
+/* --- point-point: y = q - p. --- */
+
+static inline double point_point_along(const double y[3], const double n[3], double size)
+{
+    return certified(0, v3_dot(n, y), n, size);
+}
+
+cipc_separation cipc_separate_point_point(const double x[6], double enough)
+{
+    (void)enough; /* the first direction is the best */
+    double y[1][3], n[3], size = relative_to_first(y, x, 1);
+    cipc_separation best = nothing;
+    v3_scale(n, -1, y[0]);
+    keep_better(&best, point_point_along(y[0], n, size), v3_norm(n), size, n);
+    return best;
+}
+
+/* --- point-edge: y_i = e_i - p, the point is the origin. --- */
+
+/* Lower bound along n, which points from the edge to the point. */
+static inline double point_edge_along(double y[2][3], const double n[3], double size)
+{
+    return certified(0, larger(v3_dot(n, y[0]), v3_dot(n, y[1])), n, size);
+}
+
+cipc_separation cipc_separate_point_edge(const double x[9], double enough)
+{
+    double y[2][3], d[3], n[3], size = relative_to_first(y, x, 2);
+    cipc_separation best = nothing;
+    for (int k = 0; k < 3; k++) { n[k] = -(y[0][k] + y[1][k]); }
+    best.lower = point_edge_along(y, n, size); /* towards the middle: settles most far pairs */
+    v3_copy(best.n, n);
+    if (best.lower > enough) { return best; }
+    nearest_candidate nearest = {INFINITY, {0, 0, 0}, {0, 0, 0}, false};
+    v3_sub(d, &x[6], &x[3]);
+    offer_segment(&nearest, y[0], d, 1);
+    if (nearest.inside) { orthogonalise(nearest.n, nearest.along); }
+    keep_better(&best, point_edge_along(y, nearest.n, size), sqrt(nearest.distance2), size, nearest.n);
+    return best;
+}
+
 /* --- point-triangle: y_i = t_i - p, the point is the origin. --- */
 
 /* Lower bound along n, which points from the triangle to the point. */
@@ -156,11 +208,7 @@ static void separate_by_sides(cipc_separation *best, double y[3][3], double size
 
 cipc_separation cipc_separate_point_triangle(const double x[12], double enough)
 {
-    double y[3][3], n[3], size = 0;
-    for (int i = 0; i < 3; i++) {
-        v3_sub(y[i], &x[3 * i + 3], x);
-        size = largest(size, y[i]);
-    }
+    double y[3][3], n[3], size = relative_to_first(y, x, 3);
     cipc_separation best = nothing;
     for (int k = 0; k < 3; k++) { n[k] = -(y[0][k] + y[1][k] + y[2][k]); }
     best.lower = point_triangle_along(y, n, size); /* towards the centroid: settles most far pairs */
@@ -216,11 +264,7 @@ static void separate_by_ends(cipc_separation *best, const double x[12], double y
 
 cipc_separation cipc_separate_edge_edge(const double x[12], double enough)
 {
-    double y[3][3], da[3], db[3], n[3], size = 0;
-    for (int i = 0; i < 3; i++) {
-        v3_sub(y[i], &x[3 * i + 3], x);
-        size = largest(size, y[i]);
-    }
+    double y[3][3], da[3], db[3], n[3], size = relative_to_first(y, x, 3);
     cipc_separation best = nothing;
     for (int k = 0; k < 3; k++) { n[k] = y[0][k] - y[1][k] - y[2][k]; }
     best.lower = edge_edge_along(y, n, size); /* between the mid-points: settles most far pairs */
@@ -233,14 +277,27 @@ cipc_separation cipc_separate_edge_edge(const double x[12], double enough)
     return best;
 }
 
-double cipc_separation_along(bool edge_edge, const double x[12], const double n[3])
+/* --- by kind --- */
+
+cipc_separation cipc_separate(cipc_pair_kind kind, const double *x, double enough)
 {
-    double y[3][3], size = 0;
-    for (int i = 0; i < 3; i++) {
-        v3_sub(y[i], &x[3 * i + 3], x);
-        size = largest(size, y[i]);
+    switch (kind) {
+    case CIPC_POINT_POINT: return cipc_separate_point_point(x, enough);
+    case CIPC_POINT_EDGE: return cipc_separate_point_edge(x, enough);
+    case CIPC_POINT_TRIANGLE: return cipc_separate_point_triangle(x, enough);
+    default: return cipc_separate_edge_edge(x, enough);
     }
-    return edge_edge ? edge_edge_along(y, n, size) : point_triangle_along(y, n, size);
+}
+
+double cipc_separation_along(cipc_pair_kind kind, const double *x, const double n[3])
+{
+    double y[3][3], size = relative_to_first(y, x, cipc_pair_nodes(kind) - 1);
+    switch (kind) {
+    case CIPC_POINT_POINT: return point_point_along(y[0], n, size);
+    case CIPC_POINT_EDGE: return point_edge_along(y, n, size);
+    case CIPC_POINT_TRIANGLE: return point_triangle_along(y, n, size);
+    default: return edge_edge_along(y, n, size);
+    }
 }
 
 /* --- edge-triangle: y = t0, t1, t2, e1 relative to e0. --- */

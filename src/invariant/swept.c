@@ -14,8 +14,7 @@
 
 typedef struct moving_pair {
     cipc_pair_kind kind;
-    bool edges; /* separated as two edges: a point is one of no length */
-    int nodes[4];
+    int nodes[4];  /* unused: -1 */
     double offset; /* xi */
     bool violated; /* else undecided */
     cipc_exact_impact impact;
@@ -29,26 +28,25 @@ typedef struct swept_result {
     moving_pair first;
 } swept_result;
 
-static cipc_separation separate(const moving_pair *p, const double stencil[12], double enough)
-{
-    return p->edges ? cipc_separate_edge_edge(stencil, enough) : cipc_separate_point_triangle(stencil, enough);
-}
-
 /* A direction that clears one end, tried at the other. The first one found that clears, then the best one. */
 static bool cleared_from(const moving_pair *p, const double here[12], const double there[12])
 {
-    cipc_separation s = separate(p, here, p->offset);
+    cipc_separation s = cipc_separate(p->kind, here, p->offset);
     if (!(s.lower > p->offset)) { return false; }
-    if (cipc_separation_along(p->edges, there, s.n) > p->offset) { return true; }
-    s = separate(p, here, INFINITY);
-    return s.lower > p->offset && cipc_separation_along(p->edges, there, s.n) > p->offset;
+    if (cipc_separation_along(p->kind, there, s.n) > p->offset) { return true; }
+    s = cipc_separate(p->kind, here, INFINITY);
+    return s.lower > p->offset && cipc_separation_along(p->kind, there, s.n) > p->offset;
 }
 
 /* A violation before what could not be decided. */
 static bool is_before(const moving_pair *a, const moving_pair *b)
 {
     if (a->violated != b->violated) { return a->violated; }
-    return invariant_candidates_compare(a->kind, a->nodes, b->kind, b->nodes) < 0;
+    if (a->kind != b->kind) { return a->kind < b->kind; }
+    for (int i = 0; i < 4; i++) {
+        if (a->nodes[i] != b->nodes[i]) { return a->nodes[i] < b->nodes[i]; }
+    }
+    return false;
 }
 
 static void keep_first(swept_result *r, const moving_pair *p)
@@ -60,13 +58,14 @@ static void keep_first(swept_result *r, const moving_pair *p)
 static void check_pair(swept_result *r, moving_pair *p, const double *from, const double *to)
 {
     double here[12], there[12];
-    p->edges = invariant_candidates_stencil(p->kind, from, p->nodes, here);
-    (void)invariant_candidates_stencil(p->kind, to, p->nodes, there);
+    int count = cipc_pair_nodes(p->kind);
+    cipc_gather(here, from, p->nodes, count);
+    cipc_gather(there, to, p->nodes, count);
     r->checked++;
     if (cleared_from(p, here, there) || cleared_from(p, there, here)) { return; }
     cipc_stencil_path path = {.kind = p->kind, .to_end = true};
-    cipc_gather(path.x, from, p->nodes, cipc_pair_nodes(p->kind));
-    cipc_gather(path.p, to, p->nodes, cipc_pair_nodes(p->kind));
+    memcpy(path.x, here, 3 * (size_t)count * sizeof *here);
+    memcpy(path.p, there, 3 * (size_t)count * sizeof *there);
     r->exact++;
     cipc_verdict clear = cipc_exact_path_clear(&path, p->offset, 1);
     if (clear == CIPC_YES) { return; }
@@ -75,13 +74,12 @@ static void check_pair(swept_result *r, moving_pair *p, const double *from, cons
     keep_first(r, p);
 }
 
-static swept_result check_part(const invariant_candidates *c, const invariant_candidate_part *part, const double *from, const double *to)
+static swept_result check_part(const cipc_model *m, const invariant_candidate_part *part, const double *from, const double *to)
 {
     swept_result r = {0};
-    moving_pair p = {0};
+    moving_pair p = {.kind = (cipc_pair_kind)part->kind};
     for (int i = 0; i < part->count; i++) {
-        p.kind = invariant_candidates_nodes(c, part->kind, part->pairs[i], p.nodes);
-        p.offset = invariant_candidates_offset(c->model, p.nodes[0], p.nodes[cipc_pair_nodes(p.kind) - 1]);
+        p.offset = invariant_candidates_nodes(m, p.kind, part->pairs[i], p.nodes);
         check_pair(&r, &p, from, to);
     }
     return r;
@@ -91,11 +89,10 @@ static cipc_status fail_swept(const cipc_model *m, const swept_result *r, cipc_e
 {
     const moving_pair *p = &r->first;
     cipc_status status = p->violated ? CIPC_E_VIOLATED_SWEPT : CIPC_E_INDETERMINATE;
-    char text[192];
+    char text[192], pair[CIPC_MONITOR_PAIR_SIZE];
+    cipc_monitor_name_pair(pair, m, p->kind, p->nodes);
     snprintf(text, sizeof text, "on the way the distance falls to the offset %.17g (%a) at %.17g (%a) of the path", p->offset, p->offset, p->impact.lo, p->impact.lo);
     if (!p->violated) { snprintf(text, sizeof text, "exact arithmetic could not decide whether the distance falls to the offset %.17g (%a)", p->offset, p->offset); }
-    char pair[CIPC_PAIR_TEXT_SIZE];
-    cipc_monitor_pair_text(m, p->kind, p->nodes, pair);
     return cipc_fail(error, status, "monitor swept", "%s: %s", pair, text);
 }
 
@@ -132,7 +129,7 @@ cipc_status cipc_monitor_swept(cipc_monitor *monitor, const double *from, const 
     if (results == NULL) { return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "monitor swept", "no memory for the results of %d parts", c->part_count); }
 #pragma omp parallel for schedule(dynamic) num_threads(monitor->options.threads) if (monitor->options.threads > 1)
     for (int i = 0; i < c->part_count; i++) {
-        if (c->parts[i].kind != CIPC_CANDIDATE_EDGE_TRIANGLE) { results[i] = check_part(c, &c->parts[i], from, to); }
+        if (c->parts[i].kind != CIPC_CANDIDATE_EDGE_TRIANGLE) { results[i] = check_part(monitor->model, &c->parts[i], from, to); }
     }
     swept_result all = merge(results, c->part_count);
     cipc_free(results);

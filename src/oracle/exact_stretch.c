@@ -1,8 +1,9 @@
-/* Exact comparison of the principal stretches of a triangle with a limit, in integers, and of a Green strain, in rationals (SPEC V.5 M3).
+/* Exact comparison of the principal stretches of a triangle with limits, in integers (SPEC V.5 M3).
  *
  * With the first fundamental forms Ibar (rest) and I (now), sigma_1^2 is the largest generalised eigenvalue of (I, Ibar), so
- *   sigma_1 < s  <=>  M = s^2 Ibar - I is positive definite  <=>  M11 > 0 and det M > 0.
- * and likewise sigma_2 > s <=> I - s^2 Ibar is positive definite. All entries are polynomials in the doubles given. */
+ *   sigma_1 < s  <=>  M = s^2 Ibar - I is positive definite  <=>  M11 > 0 and det M > 0,
+ * and sigma_2 > s if -M is.
+ * All entries are polynomials in the doubles given. */
 #include "cipc/oracle.h"
 
 #include <math.h>
@@ -42,8 +43,8 @@ static int definiteness(mpz_t m[3])
     return sign > 0 ? 1 : 0;
 }
 
-/* Definiteness of s^2 Ibar - I, or of I - s^2 Ibar. */
-static int compare(const double rest[9], const double x[9], double limit, bool least)
+/* Definiteness of M, or of -M. */
+static int compare(const double rest[9], const double x[9], double limit, bool negative)
 {
     if (!cipc_all_finite(rest, 9) || !cipc_all_finite(x, 9) || !isfinite(limit)) { return -1; }
     mpz_t square, now[3], m[3];
@@ -58,51 +59,19 @@ static int compare(const double rest[9], const double x[9], double limit, bool l
         mpz_mul(m[i], m[i], square);
         mpz_mul_2exp(now[i], now[i], (mp_bitcnt_t)(-2 * limit_exponent));
         mpz_sub(m[i], m[i], now[i]);
-        if (least) { mpz_neg(m[i], m[i]); }
+        if (negative) { mpz_neg(m[i], m[i]); }
     }
     int sign = definiteness(m);
     mpz_clears(square, now[0], now[1], now[2], m[0], m[1], m[2], NULL);
     return sign;
 }
 
-int cipc_exact_compare_stretch(const double rest[9], const double x[9], double limit) { return compare(rest, x, limit, false); }
-
-int cipc_exact_compare_least_stretch(const double rest[9], const double x[9], double limit) { return compare(rest, x, limit, true); }
-
-/* a0 d1 + a1 d2, one coordinate: d1 = x1 - x0, d2 = x2 - x0. */
-static void directed(mpq_t r, const double x[9], const double a[2], int k)
+int cipc_exact_compare_stretch(const double rest[9], const double x[9], double limit)
 {
-    mpq_t origin, term, factor;
-    mpq_inits(origin, term, factor, NULL);
-    mpq_set_d(origin, x[k]);
-    mpq_set_ui(r, 0, 1);
-    for (int i = 0; i < 2; i++) {
-        mpq_set_d(term, x[3 + 3 * i + k]);
-        mpq_set_d(factor, a[i]);
-        mpq_sub(term, term, origin);
-        mpq_mul(term, term, factor);
-        mpq_add(r, r, term);
-    }
-    mpq_clears(origin, term, factor, NULL);
+    return compare(rest, x, limit, false);
 }
 
-int cipc_exact_compare_strain(const double x[9], const double a[2], const double b[2], double rest, double limit)
+int cipc_exact_compare_least_stretch(const double rest[9], const double x[9], double limit)
 {
-    const double numbers[6] = {a[0], a[1], b[0], b[1], rest, limit};
-    if (!cipc_all_finite(x, 9) || !cipc_all_finite(numbers, 6)) { return -1; }
-    mpq_t twice, f, g, bound;
-    mpq_inits(twice, f, g, bound, NULL);
-    mpq_set_d(twice, -rest);
-    for (int k = 0; k < 3; k++) {
-        directed(f, x, a, k);
-        directed(g, x, b, k);
-        mpq_mul(f, f, g);
-        mpq_add(twice, twice, f);
-    }
-    mpq_abs(twice, twice);
-    mpq_set_d(bound, limit);
-    mpq_add(bound, bound, bound);
-    int sign = mpq_cmp(bound, twice);
-    mpq_clears(twice, f, g, bound, NULL);
-    return (sign > 0) - (sign < 0);
+    return compare(rest, x, limit, true);
 }

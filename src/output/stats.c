@@ -72,6 +72,8 @@ static const field monitor_fields[] = {
     MONITOR_FIELD("max_stretch_ratio", worst.max_stretch_ratio, REAL),
     MONITOR_FIELD("points_checked", points, LONG_INTEGER),
     MONITOR_FIELD("energy_checks", energy_checks, LONG_INTEGER),
+    MONITOR_FIELD("momentum_checks", momentum_checks, LONG_INTEGER),
+    MONITOR_FIELD("momentum_change", momentum_change, REAL),
     MONITOR_FIELD("exact_gap_checks", worst.exact_gap_checks, LONG_INTEGER),
     MONITOR_FIELD("exact_strain_checks", worst.exact_strain_checks, LONG_INTEGER),
     MONITOR_FIELD("paths_checked", worst.paths_checked, LONG_INTEGER),

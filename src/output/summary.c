@@ -37,6 +37,8 @@ void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *rep
     }
     summary->points_checked += invariants->points;
     summary->energy_checks += invariants->energy_checks;
+    summary->momentum_checks += invariants->momentum_checks;
+    summary->max_momentum_change = fmax(summary->max_momentum_change, invariants->momentum_change);
     summary->min_gap = fmin(summary->min_gap, invariants->worst.min_gap);
     summary->max_stretch = fmax(summary->max_stretch, invariants->worst.max_stretch);
     summary->max_stretch_ratio = fmax(summary->max_stretch_ratio, invariants->worst.max_stretch_ratio);
@@ -48,8 +50,8 @@ void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *rep
 
 enum { INVARIANT_COUNT = 8 };
 
-/* At a point the monitors look in this order and stop at the first violation; 0: no monitor of that number exists. */
-static const int turn[INVARIANT_COUNT + 1] = {[6] = 1, [8] = 2, [1] = 3, [2] = 4, [3] = 5, [4] = 6, [5] = 7};
+/* At a point the monitors look in this order and stop at the first violation; M7 looks at whole steps, when all is over. */
+static const int turn[INVARIANT_COUNT + 1] = {[6] = 1, [8] = 2, [1] = 3, [2] = 4, [3] = 5, [4] = 6, [5] = 7, [7] = 8};
 
 static int violated_invariant(cipc_status status)
 {
@@ -60,12 +62,13 @@ static int violated_invariant(cipc_status status)
     case CIPC_E_VIOLATED_INVERSION: return 4;
     case CIPC_E_VIOLATED_SWEPT: return 5;
     case CIPC_E_VIOLATED_ENERGY: return 6;
+    case CIPC_E_VIOLATED_MOMENTUM: return 7;
     case CIPC_E_VIOLATED_FINITE: return 8;
     default: return 0;
     }
 }
 
-/* Number of points that the monitor has looked at and let pass. */
+/* Number of points, or steps, that the monitor has looked at and let pass. */
 static long points_passed(const cipc_run_summary *summary, int invariant)
 {
     const int violated = violated_invariant(summary->status);
@@ -73,6 +76,9 @@ static long points_passed(const cipc_run_summary *summary, int invariant)
     const long unseen = turn[violated] != 0 && turn[invariant] > turn[violated] ? 1 : 0;
     if (invariant == 6) {
         return summary->energy_checks - unseen;
+    }
+    if (invariant == 7) {
+        return summary->momentum_checks;
     }
     if ((invariant == 3 && summary->limited_triangles == 0) || (invariant == 4 && summary->tetrahedra == 0) || (invariant == 5 && !summary->swept)) {
         return 0;
@@ -82,14 +88,24 @@ static long points_passed(const cipc_run_summary *summary, int invariant)
 
 const char *cipc_run_summary_verdict(const cipc_run_summary *summary, int invariant)
 {
-    if (invariant < 1 || invariant > INVARIANT_COUNT || turn[invariant] == 0) {
+    if (invariant < 1 || invariant > INVARIANT_COUNT) {
         return "not checked";
     }
     if (violated_invariant(summary->status) == invariant) {
         return "violated";
     }
-    const bool undecided = summary->status == CIPC_E_INDETERMINATE && invariant != 6 && invariant != 8;
+    const bool undecided = summary->status == CIPC_E_INDETERMINATE && invariant < 6;
     return summary->monitored && !undecided && points_passed(summary, invariant) > 0 ? "holds" : "not checked";
+}
+
+/* The verdict, and of M7 why there is none. */
+static json_t *verdict_text(const cipc_run_summary *summary, int invariant)
+{
+    const char *verdict = cipc_run_summary_verdict(summary, invariant);
+    if (invariant == 7 && summary->monitored && summary->momentum_source != NULL) {
+        return json_sprintf("%s: %s", verdict, summary->momentum_source);
+    }
+    return json_string(verdict);
 }
 
 /* ---- The file ------------------------------------------------------------------------------------------------------------- */
@@ -129,7 +145,7 @@ static json_t *invariants_object(const cipc_run_summary *summary, bool *good)
     for (int i = 1; i <= INVARIANT_COUNT; i++) {
         char key[16];
         snprintf(key, sizeof key, "M%d", i);
-        cipc_json_put(object, key, json_string(cipc_run_summary_verdict(summary, i)), good);
+        cipc_json_put(object, key, verdict_text(summary, i), good);
     }
     return object;
 }
@@ -140,6 +156,9 @@ static json_t *monitors_object(const cipc_run_summary *summary, bool *good)
     json_t *object = json_object();
     cipc_json_put(object, "points_checked", json_integer(summary->points_checked), good);
     cipc_json_put(object, "energy_checks", json_integer(summary->energy_checks), good);
+    cipc_json_put(object, "momentum_checks", json_integer(summary->momentum_checks), good);
+    cipc_json_put(object, "bodies_apart", json_integer(summary->bodies_apart), good);
+    cipc_json_put(object, "stitches", json_integer(summary->stitches), good);
     cipc_json_put(object, "exact_gap_checks", json_integer(summary->exact_gap_checks), good);
     cipc_json_put(object, "exact_strain_checks", json_integer(summary->exact_strain_checks), good);
     cipc_json_put(object, "paths_checked", json_integer(summary->paths_checked), good);
@@ -155,6 +174,7 @@ static json_t *extremes_object(const cipc_run_summary *summary, bool *good)
     cipc_json_put(object, "min_gap", summary->monitored ? cipc_json_number(summary->min_gap) : json_null(), good);
     cipc_json_put(object, "max_stretch", summary->monitored ? cipc_json_number(summary->max_stretch) : json_null(), good);
     cipc_json_put(object, "max_stretch_ratio", summary->monitored ? cipc_json_number(summary->max_stretch_ratio) : json_null(), good);
+    cipc_json_put(object, "max_momentum_change", summary->momentum_checks > 0 ? cipc_json_number(summary->max_momentum_change) : json_null(), good);
     cipc_json_put(object, "max_contacts", json_integer(summary->max_contacts), good);
     cipc_json_put(object, "max_newton_iterations", json_integer(summary->max_newton_iterations), good);
     return object;

@@ -20,7 +20,7 @@ static json_t *report_object(const cipc_invariant_report *report, bool *good)
     }
     cipc_json_put(object, "min_gap", cipc_json_number(report->min_gap), good);
     cipc_json_put(object, "min_gap_nodes", nodes, good);
-    cipc_json_put(object, "min_gap_pair", json_string(cipc_pair_name(report->min_gap_kind)), good);
+    cipc_json_put(object, "min_gap_kind", report->min_gap_nodes[0] >= 0 ? json_string(cipc_pair_name(report->min_gap_kind)) : json_null(), good);
     cipc_json_put(object, "max_stretch", cipc_json_number(report->max_stretch), good);
     cipc_json_put(object, "max_stretch_triangle", json_integer(report->max_stretch_triangle), good);
     cipc_json_put(object, "max_stretch_ratio", cipc_json_number(report->max_stretch_ratio), good);

@@ -64,7 +64,7 @@ static void test_walk(void **state)
     fail_allocation(0);
     enum { WAYS = 4, STEPS = 24 };
     uint64_t seed = 101;
-    hand_model *h = crumpled_scene(&seed, 5, 0.02);
+    hand_model *h = mixed_scene(&seed, 5, 0.02);
     cipc_monitor *ways[WAYS] = {create(h, 0, 1), create(h, 0.004, 1), create(h, 0.004, 2), create(h, 0.02, 5)};
     double *start = calloc(3 * (size_t)h->model.node_count, sizeof *start);
     memcpy(start, h->x, 3 * (size_t)h->model.node_count * sizeof *start);
@@ -176,7 +176,7 @@ static void test_lack_of_memory(void **state)
 {
     (void)state;
     uint64_t seed = 103;
-    hand_model *h = crumpled_scene(&seed, 3, 0.02);
+    hand_model *h = mixed_scene(&seed, 3, 0.02);
     long failures = 0;
     for (long n = 1;; n++) {
         fail_allocation(n);

@@ -263,6 +263,131 @@ static void test_message(void **state)
     hand_model_destroy(h);
 }
 
+/* Body "rope": segments in a row through these points, from node 0 on; no edges of triangles. */
+static hand_model *rope(double offset, const double x[][3], int count)
+{
+    hand_model *h = hand_model_create();
+    int body = hand_body_of(h, CIPC_BODY_RODS, "rope", offset, false);
+    for (int i = 0; i < count; i++) { hand_node(h, body, x[i][0], x[i][1], x[i][2]); }
+    for (int i = 1; i < count; i++) { hand_segment(h, i - 1, i); }
+    return h;
+}
+
+/* A particle beside a segment. */
+static void test_particle_one_ulp_from_a_rope(void **state)
+{
+    (void)state;
+    const double x[2][3] = {{-1, 0, 0}, {2, 0, 0}}, offsets[] = {0.25, 0.1, 3.18e-4};
+    for (int i = 0; i < 3; i++) {
+        hand_model *h = rope(offsets[i], x, 2);
+        hand_node(h, hand_body_of(h, CIPC_BODY_PARTICLES, "dust", offsets[i], false), 0.1, 0, 1);
+        assert_border_at(h, 8, offsets[i], INFINITY);
+        monitor_trial t = look(h); /* below the border now */
+        assert_int_equal(t.report.min_gap_kind, CIPC_POINT_EDGE);
+        assert_int_equal(t.report.min_gap_nodes[0], 2);
+        assert_int_equal(t.report.min_gap_nodes[3], -1);
+        assert_non_null(strstr(t.error.what, "node 2 (body \"dust\") and edge (nodes 0 1, body \"rope\"): distance"));
+        h->x[6] = 3; /* past its end */
+        assert_int_equal(look(h).status, CIPC_OK);
+        hand_model_destroy(h);
+    }
+}
+
+/* Parallel segments: edge-edge pairs alone would see them too; a rope folded back onto the segment next to its end is seen by its end only. */
+static void test_rope_folded_back(void **state)
+{
+    (void)state;
+    const double x[3][3] = {{0.5, 0, 0.125}, {2, 0, 0.125}, {-1, 0, 0}};
+    hand_model *h = rope(0, x, 3);
+    h->x[2] = h->x[5] = 0; /* nodes 0 and 1 on the segment of nodes 1 and 2 */
+    monitor_trial t = look(h);
+    assert_int_equal(t.status, CIPC_E_VIOLATED_GAP);
+    assert_int_equal(t.report.min_gap_kind, CIPC_POINT_EDGE);
+    assert_true(t.report.min_gap == 0 && t.report.min_gap_nodes[0] == 0 && t.report.min_gap_nodes[1] == 1);
+    h->x[2] = 0x1p-1074;
+    assert_int_equal(look(h).status, CIPC_OK);
+    hand_model_destroy(h);
+}
+
+static void test_particles_one_ulp_apart(void **state)
+{
+    (void)state;
+    hand_model *h = hand_model_create();
+    int sand = hand_body_of(h, CIPC_BODY_PARTICLES, "sand", 0.125, false), salt = hand_body_of(h, CIPC_BODY_PARTICLES, "salt", 0.375, false);
+    hand_node(h, sand, 0.5, 0.5, 1);
+    hand_node(h, salt, 0.5, 0.5, 0);
+    assert_border_at(h, 2, 0.25, INFINITY); /* of unlike bodies: the mean */
+    monitor_trial t = look(h);
+    assert_int_equal(t.report.min_gap_kind, CIPC_POINT_POINT);
+    assert_true(t.report.min_gap_nodes[0] == 0 && t.report.min_gap_nodes[1] == 1 && t.report.min_gap_nodes[2] == -1);
+    assert_non_null(strstr(t.error.what, "node 0 (body \"sand\") and node 1 (body \"salt\"): distance"));
+    h->model.bodies[salt].kind = CIPC_BODY_SHELL; /* loose nodes of other bodies meet no points */
+    assert_int_equal(look(h).status, CIPC_OK);
+    hand_model_destroy(h);
+}
+
+/* Particles and rope against a sheet: pairs of points and edges with the triangle, as for any body. */
+static void test_rope_through_a_sheet(void **state)
+{
+    (void)state;
+    hand_model *h = hand_model_create();
+    int sheet = hand_body(h, "sheet", 0.25, 0, false), line = hand_body_of(h, CIPC_BODY_RODS, "rope", 0.25, false);
+    hand_new_triangle(h, sheet, flat);
+    int low = hand_node(h, line, 0.1, 0.1, 0.25);
+    hand_segment(h, low, hand_node(h, line, 0.1, 0.1, 3));
+    assert_border_at(h, 11, 0.25, INFINITY);
+    assert_int_equal(look(h).report.min_gap_kind, CIPC_POINT_TRIANGLE);
+    hand_model_destroy(h);
+}
+
+/* Nothing touches a node inside a volume; the same node on the outside counts. */
+static void test_nodes_inside_volumes_do_not_count(void **state)
+{
+    (void)state;
+    const double point[3] = {0, 0, 0.125};
+    hand_model *h = point_over_triangle(0.25, 0.25, point, flat);
+    assert_int_equal(look(h).status, CIPC_E_VIOLATED_GAP);
+    hand_interior(h, 0);
+    assert_int_equal(look(h).status, CIPC_OK);
+    h->model.interior[0] = false;
+    h->model.interior[1] = true; /* not the asking node */
+    assert_int_equal(look(h).status, CIPC_E_VIOLATED_GAP);
+    hand_model_destroy(h);
+}
+
+static void test_bodies_apart_pass(void **state)
+{
+    (void)state;
+    const double point[3] = {0, 0, 0};
+    hand_model *h = point_over_triangle(0.25, 0.25, point, flat);
+    hand_apart(h, 0, 0);
+    assert_int_equal(look(h).status, CIPC_E_VIOLATED_GAP); /* that is another pair of bodies */
+    hand_apart(h, 0, 1);
+    assert_int_equal(look(h).status, CIPC_OK);
+    hand_model_destroy(h);
+    h = hand_model_create(); /* a body apart from itself */
+    int sand = hand_body_of(h, CIPC_BODY_PARTICLES, "sand", 0.25, false);
+    for (int i = 0; i < 2; i++) { hand_node(h, sand, 0, 0, 0); }
+    assert_int_equal(look(h).status, CIPC_E_VIOLATED_GAP);
+    hand_apart(h, sand, sand);
+    assert_int_equal(look(h).status, CIPC_OK);
+    hand_model_destroy(h);
+}
+
+static void test_sewn_nodes_pass(void **state)
+{
+    (void)state;
+    const double point[3] = {0, 0, 0};
+    hand_model *h = point_over_triangle(0.25, 0.25, point, flat);
+    hand_sew(h, 0, 2);
+    assert_int_equal(look(h).status, CIPC_OK);
+    hand_node(h, 0, 0.1, 0.1, 0); /* its neighbour is not sewn */
+    monitor_trial t = look(h);
+    assert_int_equal(t.status, CIPC_E_VIOLATED_GAP);
+    assert_int_equal(t.report.min_gap_nodes[0], 4);
+    hand_model_destroy(h);
+}
+
 /* The worst pair is the one named. */
 static void test_worst_pair_is_named(void **state)
 {
@@ -340,6 +465,13 @@ int main(void)
         cmocka_unit_test(test_nearly_parallel_edges),
         cmocka_unit_test(test_filter_settles_ordinary_pairs),
         cmocka_unit_test(test_message),
+        cmocka_unit_test(test_particle_one_ulp_from_a_rope),
+        cmocka_unit_test(test_rope_folded_back),
+        cmocka_unit_test(test_particles_one_ulp_apart),
+        cmocka_unit_test(test_rope_through_a_sheet),
+        cmocka_unit_test(test_nodes_inside_volumes_do_not_count),
+        cmocka_unit_test(test_bodies_apart_pass),
+        cmocka_unit_test(test_sewn_nodes_pass),
         cmocka_unit_test(test_worst_pair_is_named),
         cmocka_unit_test(test_not_a_number_is_rejected),
         cmocka_unit_test(test_least_gap_is_exact_among_those_the_filter_confuses),

@@ -164,6 +164,39 @@ static void test_fixed_bodies_may_interpenetrate(void **state)
     hand_model_destroy(h);
 }
 
+/* Bodies apart, and a node of the edge sewn to one of the triangle. */
+static void test_what_the_scene_lets_pass(void **state)
+{
+    (void)state;
+    hand_model *h = edge_and_triangle(cases[0].edge, sheet);
+    hand_apart(h, 1, 1);
+    assert_int_equal(look(h).status, CIPC_E_VIOLATED_INTERSECTION);
+    hand_apart(h, 1, 0);
+    assert_int_equal(look(h).status, CIPC_OK);
+    hand_model_destroy(h);
+    h = edge_and_triangle(cases[0].edge, sheet);
+    hand_sew(h, 1, 4);
+    assert_int_equal(look(h).status, CIPC_OK);
+    hand_model_destroy(h);
+}
+
+/* A segment of a rope is an edge like others; a node inside a volume does not make its edges pass. */
+static void test_segments_count(void **state)
+{
+    (void)state;
+    hand_model *h = hand_model_create();
+    int jelly = hand_body_of(h, CIPC_BODY_VOLUME, "jelly", 0, false), rope = hand_body_of(h, CIPC_BODY_RODS, "rope", 0, false);
+    hand_new_triangle(h, jelly, sheet);
+    int low = hand_node(h, rope, 1, 1, -1);
+    hand_segment(h, low, hand_node(h, rope, 1, 1, 0));
+    assert_int_equal(look(h).status, CIPC_E_VIOLATED_INTERSECTION);
+    hand_interior(h, low + 1);
+    assert_int_equal(look(h).status, CIPC_E_VIOLATED_INTERSECTION);
+    h->x[14] = -0x1p-1074;
+    assert_int_equal(look(h).status, CIPC_OK);
+    hand_model_destroy(h);
+}
+
 /* Thickness is M2's: touching is what M1 looks for, whatever the offset. */
 static void test_offset_does_not_matter(void **state)
 {
@@ -222,6 +255,8 @@ int main(void)
         cmocka_unit_test(test_flat_mesh),
         cmocka_unit_test(test_incident_pairs_are_no_pairs),
         cmocka_unit_test(test_fixed_bodies_may_interpenetrate),
+        cmocka_unit_test(test_what_the_scene_lets_pass),
+        cmocka_unit_test(test_segments_count),
         cmocka_unit_test(test_offset_does_not_matter),
         cmocka_unit_test(test_degenerate_triangles),
         cmocka_unit_test(test_message),

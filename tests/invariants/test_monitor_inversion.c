@@ -8,6 +8,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "cipc/oracle.h"
+#include "support/exact_geometry.h"
 #include "support/monitor_trial.h"
 
 static monitor_trial look(const hand_model *h)
@@ -52,6 +54,28 @@ static void test_degenerate(void **state)
     memset(h->x, 0, 12 * sizeof *h->x);
     assert_int_equal(look(h).status, CIPC_E_VIOLATED_INVERSION);
     hand_model_destroy(h);
+}
+
+/* The fourth node on the plane of the others, or an ulp of one coordinate from it, anywhere in space: the sign is exact arithmetic's. */
+static void test_random_planes_by_one_ulp(void **state)
+{
+    (void)state;
+    uint64_t seed = 67;
+    int signs[3] = {0, 0, 0};
+    for (int i = 0; i < 3000; i++) {
+        hand_model *h = tetrahedron(1);
+        for (int k = 0; k < 9; k++) { h->x[k] = random_below(&seed, 2048) - 1024; }
+        int s = random_below(&seed, 9) - 4, t = random_below(&seed, 9) - 4; /* small integers: the point is on the plane exactly */
+        for (int k = 0; k < 3; k++) { h->x[9 + k] = h->x[k] + s * (h->x[3 + k] - h->x[k]) + t * (h->x[6 + k] - h->x[k]); }
+        assert_int_equal(look(h).status, CIPC_E_VIOLATED_INVERSION);
+        int coordinate = 9 + random_below(&seed, 3);
+        h->x[coordinate] = nextafter(h->x[coordinate], random_below(&seed, 2) ? INFINITY : -INFINITY);
+        int sign = cipc_exact_orientation(&h->x[0], &h->x[3], &h->x[6], &h->x[9]);
+        assert_int_equal(look(h).status, sign > 0 ? CIPC_OK : CIPC_E_VIOLATED_INVERSION);
+        signs[sign + 1]++;
+        hand_model_destroy(h);
+    }
+    assert_true(signs[0] > 1000 && signs[2] > 1000);
 }
 
 static void test_large_common_translation(void **state)
@@ -111,7 +135,7 @@ static void test_nothing_to_invert(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_one_ulp_from_flat),        cmocka_unit_test(test_degenerate),
+        cmocka_unit_test(test_one_ulp_from_flat),        cmocka_unit_test(test_degenerate), cmocka_unit_test(test_random_planes_by_one_ulp),
         cmocka_unit_test(test_large_common_translation), cmocka_unit_test(test_first_of_many_is_named),
         cmocka_unit_test(test_not_a_number_is_rejected), cmocka_unit_test(test_nothing_to_invert),
     };

@@ -34,6 +34,9 @@ void hand_model_destroy(hand_model *h)
     free(m->triangle_body);
     free(m->edges);
     free(m->tetrahedra);
+    free(m->interior);
+    free(m->pair_apart);
+    free(m->links);
     free(h->x);
     free(h);
 }
@@ -52,6 +55,14 @@ int hand_body(hand_model *h, const char *name, double offset, double strain_limi
     return m->body_count++;
 }
 
+int hand_body_of(hand_model *h, cipc_body_kind kind, const char *name, double offset, bool fixed)
+{
+    int body = hand_body(h, name, offset, 0, fixed);
+    h->model.bodies[body].kind = kind;
+    h->model.bodies[body].material.membrane = CIPC_MEMBRANE_NONE;
+    return body;
+}
+
 int hand_node(hand_model *h, int body, double x, double y, double z)
 {
     cipc_model *m = &h->model;
@@ -65,18 +76,43 @@ int hand_node(hand_model *h, int body, double x, double y, double z)
     return m->node_count++;
 }
 
+static void add_edge(cipc_model *m, int a, int b)
+{
+    m->edges = grow(m->edges, m->edge_count, sizeof *m->edges);
+    m->edges[m->edge_count][0] = a;
+    m->edges[m->edge_count][1] = b;
+    m->edge_count++;
+}
+
 void hand_edge(hand_model *h, int a, int b)
 {
     cipc_model *m = &h->model;
+    if (m->segment_count > 0) { abort(); } /* segments come last */
     int low = a < b ? a : b, high = a < b ? b : a;
     /* Edges of one mesh repeat soon if at all: look at the latest first. */
     for (int e = m->edge_count - 1; e >= 0; e--) {
         if (m->edges[e][0] == low && m->edges[e][1] == high) { return; }
     }
-    m->edges = grow(m->edges, m->edge_count, sizeof *m->edges);
-    m->edges[m->edge_count][0] = low;
-    m->edges[m->edge_count][1] = high;
-    m->edge_count++;
+    add_edge(m, low, high);
+    m->first_segment = m->edge_count;
+}
+
+void hand_segment(hand_model *h, int a, int b)
+{
+    add_edge(&h->model, a, b);
+    h->model.segment_count++;
+}
+
+int hand_rope(hand_model *h, int body, const double from[3], const double to[3], int count)
+{
+    int first = h->model.node_count;
+    for (int i = 0; i <= count; i++) {
+        double t = (double)i / count, p[3];
+        for (int k = 0; k < 3; k++) { p[k] = from[k] + t * (to[k] - from[k]); }
+        hand_node(h, body, p[0], p[1], p[2]);
+        if (i > 0) { hand_segment(h, first + i - 1, first + i); }
+    }
+    return first;
 }
 
 void hand_triangle(hand_model *h, int a, int b, int c)
@@ -127,6 +163,47 @@ int hand_grid(hand_model *h, int body, const double origin[3], const double u[3]
         }
     }
     return first;
+}
+
+/* A table of flags, all false until the first is set. */
+static bool *flags(bool *table, int count)
+{
+    if (table != NULL) { return table; }
+    table = __real_realloc(NULL, (size_t)count * sizeof *table);
+    if (table == NULL) { abort(); }
+    memset(table, 0, (size_t)count * sizeof *table);
+    return table;
+}
+
+void hand_interior(hand_model *h, int node)
+{
+    h->model.interior = flags(h->model.interior, h->model.node_count);
+    h->model.interior[node] = true;
+}
+
+void hand_apart(hand_model *h, int body_a, int body_b)
+{
+    int n = h->model.body_count;
+    h->model.pair_apart = flags(h->model.pair_apart, n * n);
+    h->model.pair_apart[body_a * n + body_b] = h->model.pair_apart[body_b * n + body_a] = true;
+}
+
+static int compare_links(const void *a, const void *b)
+{
+    const int *p = a, *q = b;
+    return p[0] != q[0] ? p[0] - q[0] : p[1] - q[1];
+}
+
+void hand_sew(hand_model *h, int node_a, int node_b)
+{
+    cipc_model *m = &h->model;
+    for (int order = 0; order < 2; order++) {
+        m->links = grow(m->links, (int)m->link_count, sizeof *m->links);
+        m->links[m->link_count][0] = order == 0 ? node_a : node_b;
+        m->links[m->link_count][1] = order == 0 ? node_b : node_a;
+        m->link_count++;
+    }
+    qsort(m->links, (size_t)m->link_count, sizeof *m->links, compare_links);
 }
 
 void hand_translate(hand_model *h, const double t[3])

@@ -361,7 +361,9 @@ static void test_good_run_writes_everything(void **state)
     assert_string_equal(text_of(invariants, "M1"), "holds");
     assert_string_equal(text_of(invariants, "M2"), "holds");
     assert_string_equal(text_of(invariants, "M3"), "holds");
+    assert_string_equal(text_of(invariants, "M4"), "not checked"); /* there are no tetrahedra */
     assert_string_equal(text_of(invariants, "M6"), "holds");
+    assert_string_equal(text_of(invariants, "M7"), "not checked: gravity");
     assert_string_equal(text_of(invariants, "M8"), "holds");
     assert_string_equal(text_of(json_object_get(summary, "scene"), "name"), "scene");
     assert_int_equal(json_integer_value(json_object_get(scene, "steps")), 7);
@@ -393,6 +395,27 @@ static void test_run_without_monitors_claims_nothing(void **state)
     json_object_foreach(json_object_get(summary, "invariants"), key, verdict) {
         assert_string_equal(json_string_value(verdict), "not checked");
     }
+    json_decref(summary);
+}
+
+/* A cloth thrown at another one without gravity: the sum of their momenta is kept, as far as rounding goes. */
+static void test_run_without_outer_forces(void **state)
+{
+    const fixture *f = *state;
+    static const char thrown[] = SCENE("\"gravity\": [0, 0, 0], ",
+                                       "{\"name\": \"other\", \"material\": \"cotton\", \"shell\": {\"grid\": {\"size\": [0.3, 0.3], \"cells\": [3, 3]}}}, "
+                                       "{\"name\": \"thrown\", \"material\": \"cotton\", \"velocity\": [0.1, -1, 0], \"shell\": {\"grid\": {\"size\": [0.2, 0.2], "
+                                       "\"cells\": [2, 2]}}, \"transform\": {\"translate\": [0.03, 0.01, 0.02]}}");
+    file_write(&f->scene, thrown, strlen(thrown));
+    const outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, NULL);
+    assert_string_equal(o.err, "");
+    assert_int_equal(o.exit_status, 0);
+    json_t *summary = load_result(f, "summary.json");
+    assert_string_equal(text_of(json_object_get(summary, "invariants"), "M7"), "holds");
+    assert_int_equal(json_integer_value(json_object_get(json_object_get(summary, "monitors"), "momentum_checks")), 5);
+    const json_t *extremes = json_object_get(summary, "extremes");
+    assert_true(json_integer_value(json_object_get(extremes, "max_contacts")) > 0);
+    assert_true(json_real_value(json_object_get(extremes, "max_momentum_change")) < 1e-12);
     json_decref(summary);
 }
 
@@ -450,7 +473,7 @@ static void test_unwritable_folder(void **state)
 static void test_no_space(void **state)
 {
     const fixture *f = *state;
-    const rlim_t limits[] = {100, 5000, 20000, 32000}; /* the last lets the trajectory through, not the pictures */
+    const rlim_t limits[] = {100, 5000, 20000, 44000}; /* the last lets the trajectory through, not the pictures */
     for (size_t i = 0; i < sizeof limits / sizeof limits[0]; i++) {
         struct rlimit before, lowered;
         assert_int_equal(getrlimit(RLIMIT_FSIZE, &before), 0);
@@ -648,6 +671,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_good_run_writes_everything, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_default_folder, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_run_without_monitors_claims_nothing, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_run_without_outer_forces, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_new_run_removes_stale_results, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_no_convergence, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_unwritable_folder, set_up, tear_down),

@@ -51,6 +51,28 @@ static void test_shear(void **state)
     assert_int_equal(cipc_exact_compare_stretch(unit_triangle, x, nextafter(2, 1)), -1);
 }
 
+/* The least stretch: of a triangle compressed along one axis and stretched along the other, by one ulp; simple shear by 3/2 compresses to 1/2. */
+static void test_least_stretch(void **state)
+{
+    (void)state;
+    const double limits[] = {0.9, 0.7, 0.999, 0x1p-300};
+    for (int i = 0; i < 4; i++) {
+        double s = limits[i], x[9] = {0, 0, 0, 3, 0, 0, 0, s, 0};
+        assert_int_equal(cipc_exact_compare_least_stretch(unit_triangle, x, s), 0);
+        assert_int_equal(cipc_exact_compare_least_stretch(unit_triangle, x, nextafter(s, 0)), 1);
+        assert_int_equal(cipc_exact_compare_least_stretch(unit_triangle, x, nextafter(s, 1)), -1);
+        x[7] = nextafter(s, 1);
+        assert_int_equal(cipc_exact_compare_least_stretch(unit_triangle, x, s), 1);
+        x[3] = nextafter(s, 0);
+        assert_int_equal(cipc_exact_compare_least_stretch(unit_triangle, x, s), -1);
+    }
+    const double shear[9] = {0, 0, 0, 1, 0, 0, 1.5, 1, 0}, point[9] = {0};
+    assert_int_equal(cipc_exact_compare_least_stretch(unit_triangle, shear, 0.5), 0);
+    assert_int_equal(cipc_exact_compare_least_stretch(unit_triangle, shear, nextafter(0.5, 0)), 1);
+    assert_int_equal(cipc_exact_compare_least_stretch(unit_triangle, point, 0.5), -1); /* collapsed */
+    assert_int_equal(cipc_exact_compare_least_stretch(unit_triangle, shear, NAN), -1);
+}
+
 /* Rigid motions of a triangle whose rotation is rational: the stretch is 1. */
 static void test_rigid_motion(void **state)
 {
@@ -107,6 +129,7 @@ int main(void)
         cmocka_unit_test(test_one_ulp_of_the_limit),
         cmocka_unit_test(test_both_stretches_at_the_limit),
         cmocka_unit_test(test_shear),
+        cmocka_unit_test(test_least_stretch),
         cmocka_unit_test(test_rigid_motion),
         cmocka_unit_test(test_order_of_nodes),
         cmocka_unit_test(test_degenerate),

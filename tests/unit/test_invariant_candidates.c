@@ -34,25 +34,22 @@ static unsigned char *count_pairs(const invariant_candidates *c, invariant_candi
     return times;
 }
 
-/* Every pair that is not exempt and within xi + reach at x is listed once, every other at most once, no exempt one at all. */
-static void check_gap_pairs(const invariant_candidates *c, bool edge_edge, const double *x, bool skip_fixed, long *near)
+/* Every pair that must not touch and is within xi + reach at x is listed once, every other such pair at most once, nothing else at all. */
+static void check_gap_pairs(const invariant_candidates *c, cipc_pair_kind kind, const double *x, bool skip_fixed, long *near)
 {
     const cipc_model *m = c->model;
-    int na = edge_edge ? 2 : 1, nb = edge_edge ? 2 : 3, first = edge_edge ? m->edge_count : m->node_count,
-        second = edge_edge ? m->edge_count : m->triangle_count;
-    unsigned char *times = count_pairs(c, edge_edge ? CIPC_CANDIDATE_EDGE_EDGE : CIPC_CANDIDATE_POINT_TRIANGLE, first, second);
+    int first = plain_side_count(m, kind, 0), second = plain_side_count(m, kind, 1), nodes[4];
+    unsigned char *times = count_pairs(c, (invariant_candidate_kind)kind, first, second);
     for (int i = 0; i < first; i++) {
         for (int j = 0; j < second; j++) {
-            const int *a = edge_edge ? m->edges[i] : &c->point_nodes[i], *b = edge_edge ? m->edges[j] : m->triangles[j];
             int listed = times[(size_t)i * (size_t)second + (size_t)j];
-            if (plain_is_exempt(m, a, na, b, nb, skip_fixed) || (edge_edge && j <= i)) {
+            if (!plain_is_pair(m, kind, i, j, skip_fixed)) {
                 assert_int_equal(listed, 0);
                 continue;
             }
-            double stencil[12];
-            cipc_gather(stencil, x, a, na);
-            cipc_gather(&stencil[3 * na], x, b, nb);
-            bool within = cipc_exact_distance_sign(cipc_mesh_pair(edge_edge), stencil, invariant_candidates_offset(m, a[0], b[0]) + c->reach) <= 0;
+            double stencil[12], xi = plain_pair_nodes(m, kind, i, j, nodes);
+            plain_stencil(kind, x, nodes, stencil);
+            bool within = cipc_exact_distance_sign(kind, stencil, xi + c->reach) <= 0;
             assert_true(within ? listed == 1 : listed <= 1);
             *near += within ? 1 : 0;
         }
@@ -79,10 +76,10 @@ static void check_crossing_pairs(const invariant_candidates *c, const double *x,
     free(times);
 }
 
-static void check_all(const invariant_candidates *c, const double *x, bool skip_fixed, long *near, long *crossings)
+/* near: by kind of pair. */
+static void check_all(const invariant_candidates *c, const double *x, bool skip_fixed, long near[CIPC_PAIR_KIND_COUNT], long *crossings)
 {
-    check_gap_pairs(c, false, x, skip_fixed, near);
-    check_gap_pairs(c, true, x, skip_fixed, near);
+    for (int kind = 0; kind < CIPC_PAIR_KIND_COUNT; kind++) { check_gap_pairs(c, (cipc_pair_kind)kind, x, skip_fixed, &near[kind]); }
     check_crossing_pairs(c, x, skip_fixed, crossings);
 }
 
@@ -102,28 +99,29 @@ static void test_complete_while_valid(void **state)
     (void)state;
     fail_allocation(0);
     uint64_t seed = 71;
-    long near = 0, crossings = 0;
+    long near[CIPC_PAIR_KIND_COUNT] = {0}, crossings = 0;
     for (int round = 0; round < 4; round++) {
-        hand_model *h = crumpled_scene(&seed, 7, 0.02);
+        hand_model *h = mixed_scene(&seed, 7, 0.02);
         bool skip_fixed = round % 2 == 0, made;
         double margin = 0.01, *x = calloc(3 * (size_t)h->model.node_count, sizeof *x);
         invariant_candidates c;
         assert_true(invariant_candidates_init(&c, &h->model, 0.015, margin, 1 + round % 3, skip_fixed));
         assert_true(invariant_candidates_update(&c, h->x, &made) && made);
-        check_all(&c, h->x, skip_fixed, &near, &crossings);
+        check_all(&c, h->x, skip_fixed, near, &crossings);
         for (int move = 0; move < 3; move++) {
             jiggle(&seed, x, h->x, h->model.node_count, 0.5 * margin * (1 - 0x1p-30));
             assert_true(invariant_candidates_update(&c, x, &made) && !made); /* kept ... */
-            check_all(&c, x, skip_fixed, &near, &crossings);                 /* ... and still complete */
+            check_all(&c, x, skip_fixed, near, &crossings);                 /* ... and still complete */
         }
         x[5] = h->x[5] + 0.5 * margin * (1 + 0x1p-30);
         assert_true(invariant_candidates_update(&c, x, &made) && made); /* one node too far */
-        check_all(&c, x, skip_fixed, &near, &crossings);
+        check_all(&c, x, skip_fixed, near, &crossings);
         invariant_candidates_free(&c);
         free(x);
         hand_model_destroy(h);
     }
-    assert_true(near > 1000 && crossings > 100); /* the bump pierces the floor; jiggled layers pierce one another */
+    for (int kind = 0; kind < CIPC_PAIR_KIND_COUNT; kind++) { assert_true(near[kind] > 100); }
+    assert_true(crossings > 100); /* the bump pierces the floor; jiggled layers pierce one another */
 }
 
 static void test_without_margin(void **state)
@@ -148,7 +146,7 @@ static void test_same_lists_for_any_number_of_threads(void **state)
     (void)state;
     fail_allocation(0);
     uint64_t seed = 79;
-    hand_model *h = crumpled_scene(&seed, 12, 0.02);
+    hand_model *h = mixed_scene(&seed, 12, 0.02);
     invariant_candidates c[3];
     for (int t = 0; t < 3; t++) {
         bool made;
@@ -177,12 +175,12 @@ static void test_extreme_positions(void **state)
     hand_new_triangle(h, body, (const double[9]){-1e308, -1e308, 0, 1e308, -1e308, 0, 0, 1e308, 0});
     hand_node(h, body, 0, 0, 0);
     invariant_candidates c;
-    long near = 0, crossings = 0;
+    long near[CIPC_PAIR_KIND_COUNT] = {0}, crossings = 0;
     bool made;
     assert_true(invariant_candidates_init(&c, &h->model, 1e-3, 1e-3, 1, true));
     assert_true(invariant_candidates_update(&c, h->x, &made));
-    check_all(&c, h->x, true, &near, &crossings);
-    assert_int_equal(near, 1);
+    check_all(&c, h->x, true, near, &crossings);
+    assert_int_equal(near[CIPC_POINT_TRIANGLE], 1);
     invariant_candidates_free(&c);
     hand_model_destroy(h);
 

@@ -17,18 +17,13 @@
  * all of these and far below what matters. */
 #define LOSS 0x1p-38
 
-static cipc_separation separate(bool edge_edge, const double x[12], double enough)
-{
-    return edge_edge ? cipc_separate_edge_edge(x, enough) : cipc_separate_point_triangle(x, enough);
-}
-
 /* lower <= d, exactly. A bound that is not positive says nothing. */
-static void assert_is_lower_bound(bool edge_edge, const double x[12], double lower)
+static void assert_is_lower_bound(cipc_pair_kind kind, const double x[12], double lower)
 {
     assert_true(lower == lower); /* not NaN */
-    if (lower > 0 && cipc_exact_distance_sign(cipc_mesh_pair(edge_edge), x, lower) < 0) {
-        fail_msg("%s: lower bound %.17g above the distance (gap %.3g)", edge_edge ? "edge-edge" : "point-triangle", lower,
-                 cipc_exact_distance_gap(cipc_mesh_pair(edge_edge), x, lower));
+    if (lower > 0 && cipc_exact_distance_sign(kind, x, lower) < 0) {
+        fail_msg("%s: lower bound %.17g above the distance (gap %.3g)", cipc_pair_name(kind), lower,
+                 cipc_exact_distance_gap(kind, x, lower));
     }
 }
 
@@ -62,10 +57,10 @@ static void test_lower_bounds(void **state)
     for (int i = 0; i < SAMPLES; i++) {
         double x[12];
         draw(&seed, i % SHAPES, x);
-        bool edge_edge = random_below(&seed, 2) == 1;
-        cipc_separation best = separate(edge_edge, x, INFINITY), quick = separate(edge_edge, x, 0);
-        assert_is_lower_bound(edge_edge, x, best.lower);
-        assert_is_lower_bound(edge_edge, x, quick.lower);
+        cipc_pair_kind kind = (cipc_pair_kind)random_below(&seed, CIPC_PAIR_KIND_COUNT);
+        cipc_separation best = cipc_separate(kind, x, INFINITY), quick = cipc_separate(kind, x, 0);
+        assert_is_lower_bound(kind, x, best.lower);
+        assert_is_lower_bound(kind, x, quick.lower);
         positive += best.lower > 0 ? 1 : 0;
     }
     assert_true(positive > SAMPLES / 2);
@@ -80,10 +75,10 @@ static void test_bounds_are_tight(void **state)
         double x[12], distance2;
         int shape = i % 3 == 0 ? 3 : i % 3 == 1 ? 0 : 6;
         draw(&seed, shape, x);
-        bool edge_edge = random_below(&seed, 2) == 1;
-        distance2 = cipc_exact_distance2(cipc_mesh_pair(edge_edge), x, NULL);
-        double size = stencil_size(x, 12), distance = sqrt(distance2);
-        cipc_separation s = separate(edge_edge, x, INFINITY);
+        cipc_pair_kind kind = (cipc_pair_kind)random_below(&seed, CIPC_PAIR_KIND_COUNT);
+        distance2 = cipc_exact_distance2(kind, x, NULL);
+        double size = stencil_size(x, 3 * cipc_pair_nodes(kind)), distance = sqrt(distance2);
+        cipc_separation s = cipc_separate(kind, x, INFINITY);
         if (distance >
             1e-3 * size) { /* closer, the direction a - b between end points tilts more; that pair then goes to exact arithmetic */
             checked++;
@@ -125,12 +120,47 @@ static void test_extreme_numbers_prove_nothing_false(void **state)
         draw(&seed, i % SHAPES == 3 ? 0 : i % SHAPES, x);
         int first = exponents[random_below(&seed, 10)], second = exponents[random_below(&seed, 10)];
         for (int k = 0; k < 12; k++) { x[k] = ldexp(x[k], i % 2 == 0 || k < 6 ? first : second); }
-        bool edge_edge = random_below(&seed, 2) == 1;
-        cipc_separation s = separate(edge_edge, x, INFINITY);
-        assert_is_lower_bound(edge_edge, x, s.lower);
+        cipc_pair_kind kind = (cipc_pair_kind)random_below(&seed, CIPC_PAIR_KIND_COUNT);
+        cipc_separation s = cipc_separate(kind, x, INFINITY);
+        assert_is_lower_bound(kind, x, s.lower);
         proven += s.lower > 0 ? 1 : 0;
     }
     assert_true(proven > 500); /* 2^+-300 is within range */
+}
+
+/* Along any direction whatever, good or bad, of any length. */
+static void test_along_any_direction(void **state)
+{
+    (void)state;
+    uint64_t seed = 57;
+    long positive[CIPC_PAIR_KIND_COUNT] = {0};
+    for (int i = 0; i < 20000; i++) {
+        double x[12], n[3];
+        draw(&seed, i % SHAPES, x);
+        cipc_pair_kind kind = (cipc_pair_kind)(i % CIPC_PAIR_KIND_COUNT);
+        random_fill(&seed, n, 3, ldexp(1, random_below(&seed, 200) - 100));
+        if (i % 3 == 0) { memcpy(n, cipc_separate(kind, x, INFINITY).n, sizeof n); }
+        double bound = cipc_separation_along(kind, x, n);
+        assert_is_lower_bound(kind, x, bound);
+        positive[kind] += bound > 0 ? 1 : 0;
+    }
+    for (int kind = 0; kind < CIPC_PAIR_KIND_COUNT; kind++) { assert_true(positive[kind] > 1000); }
+}
+
+/* A point beside an edge, beyond its end, and two points: good to rounding at any gap. */
+static void test_points_and_edges(void **state)
+{
+    (void)state;
+    uint64_t seed = 61;
+    for (int i = 0; i < 3000; i++) {
+        double gap = pow(10, random_uniform(&seed, -6, -2)), u = random_uniform(&seed, 0.1, 0.9), true_gap = (7 + gap) - 7;
+        const double beside[9] = {5 + u, 3, 7 + gap, 5, 3, 7, 6, 3, 7}, beyond[9] = {5, 3, 7 + gap, 5, 3, 7, 5, 3, 6};
+        cipc_separation s = cipc_separate_point_edge(beside, INFINITY), e = cipc_separate_point_edge(beyond, INFINITY),
+                        p = cipc_separate_point_point(beyond, INFINITY);
+        assert_true(s.tight && s.lower <= true_gap && s.lower > true_gap - 0x1p-46);
+        assert_true(e.tight && e.lower <= true_gap && e.lower > true_gap - 0x1p-46);
+        assert_true(p.tight && p.lower <= true_gap && p.lower > true_gap * (1 - 0x1p-46));
+    }
 }
 
 static void test_degenerate(void **state)
@@ -139,7 +169,11 @@ static void test_degenerate(void **state)
     const double same[12] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1}, point_point[12] = {1, 2, 2, 0, 0, 0, 0, 0, 0, 0, 0, 0};
     assert_false(cipc_separate_point_triangle(same, INFINITY).lower > 0);
     assert_false(cipc_separate_edge_edge(same, INFINITY).lower > 0);
+    assert_false(cipc_separate_point_edge(same, INFINITY).lower > 0);
+    assert_false(cipc_separate_point_point(same, INFINITY).lower > 0);
     cipc_separation s = cipc_separate_point_triangle(point_point, INFINITY);
+    assert_true(s.lower <= 3 && s.lower > 3 - 0x1p-40);
+    s = cipc_separate_point_edge(point_point, INFINITY); /* an edge of no length */
     assert_true(s.lower <= 3 && s.lower > 3 - 0x1p-40);
     const double parallel[12] = {0, 0, 0, 4, 0, 0, 1, 3, 0, 2, 3, 0}, meeting[12] = {-1, 0, 0, 1, 0, 0, 0, -1, 0, 0, 1, 0};
     s = cipc_separate_edge_edge(parallel, INFINITY);
@@ -218,6 +252,8 @@ int main(void)
         cmocka_unit_test(test_bounds_are_tight),
         cmocka_unit_test(test_close_layers),
         cmocka_unit_test(test_extreme_numbers_prove_nothing_false),
+        cmocka_unit_test(test_along_any_direction),
+        cmocka_unit_test(test_points_and_edges),
         cmocka_unit_test(test_degenerate),
         cmocka_unit_test(test_edge_and_triangle),
         cmocka_unit_test(test_edge_beside_triangle_in_its_plane),

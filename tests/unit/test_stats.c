@@ -47,6 +47,8 @@ static cipc_step_invariants sample_invariants(void)
                                           .crossings_checked = 7};
     cipc_step_invariants_add(&v, &report);
     v.energy_checks = 1;
+    v.momentum_checks = 1;
+    v.momentum_change = 1e-12;
     return v;
 }
 
@@ -88,7 +90,7 @@ static void test_every_field(void **state)
         {"step", 1}, {"time", 0.01}, {"newton_iterations", 3}, {"line_search_halvings", 1}, {"friction_passes", 2}, {"factorizations", 4},
         {"symbolic_analyses", 5}, {"contacts", 6}, {"max_contacts", 7}, {"residual", 1.0 / 3}, {"barrier_stiffness", 1e3},
         {"strain_stiffness_factor", 2}, {"solver_min_gap", 1e-5}, {"min_gap", 2e-5}, {"max_stretch", 1.05}, {"max_stretch_triangle", 6},
-        {"max_stretch_ratio", 0.8}, {"points_checked", 1}, {"energy_checks", 1}, {"exact_gap_checks", 4}, {"exact_strain_checks", 5}, {"paths_checked", 8}, {"exact_path_checks", 9},
+        {"max_stretch_ratio", 0.8}, {"points_checked", 1}, {"energy_checks", 1}, {"momentum_checks", 1}, {"momentum_change", 1e-12}, {"exact_gap_checks", 4}, {"exact_strain_checks", 5}, {"paths_checked", 8}, {"exact_path_checks", 9},
         {"pairs_checked", 60}, {"crossings_checked", 7},
     };
     enum { SCALARS = sizeof expected / sizeof expected[0], OTHERS = 5 }; /* converged, min_gap_nodes and three objects */

@@ -176,6 +176,22 @@ static void test_residual_above_the_tolerance(void **state)
     assert_true(file_exists(&obj));
 }
 
+/* Gravity, and later the floor, change momentum here, as a force without opposite would. */
+static void test_broken_momentum(void **state)
+{
+    fixture *f = *state;
+    judge(f);
+    f->s.velocity = cipc_alloc(3 * (size_t)f->s.scene->model->node_count, sizeof *f->s.velocity);
+    f->s.summary.status = cipc_simulation_steps(&f->s);
+    assert_int_equal(f->s.summary.status, CIPC_E_VIOLATED_MOMENTUM);
+    assert_non_null(strstr(f->s.error.place, "monitor momentum"));
+    assert_int_equal(f->s.summary.momentum_checks, f->s.summary.steps_taken); /* the one that failed does not count */
+    assert_string_equal(cipc_run_summary_verdict(&f->s.summary, 7), "violated");
+    const path obj = path_in(&f->folder, "violation.obj");
+    assert_true(file_exists(&obj));
+    cipc_free(f->s.velocity);
+}
+
 static void test_nothing_broken(void **state)
 {
     fixture *f = *state;
@@ -195,6 +211,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_summary_and_exit_status_of_a_violation, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_broken_strain_at_once, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_residual_above_the_tolerance, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_broken_momentum, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_nothing_broken, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

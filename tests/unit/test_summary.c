@@ -52,7 +52,10 @@ static void test_verdicts_of_good_runs(void **state)
 {
     (void)state;
     cipc_run_summary s = good_run();
-    assert_verdicts(&s, "hhh-hh-h"); /* M7 has no monitor; no tetrahedra for M4 */
+    assert_verdicts(&s, "hhh-hh-h"); /* no step for M7, no tetrahedra for M4 */
+    s.momentum_checks = 4;
+    assert_verdicts(&s, "hhh-hhhh");
+    s.momentum_checks = 0;
     s.tetrahedra = 1;
     assert_verdicts(&s, "hhhhhh-h");
     s.limited_triangles = 0;
@@ -79,7 +82,7 @@ static void test_verdicts_of_violations(void **state)
     const struct { cipc_status status; const char *verdicts; } cases[] = {
         {CIPC_E_VIOLATED_INTERSECTION, "vhhhhh-h"}, {CIPC_E_VIOLATED_GAP, "hvhhhh-h"},    {CIPC_E_VIOLATED_STRAIN, "hhvhhh-h"},
         {CIPC_E_VIOLATED_INVERSION, "hhhvhh-h"},    {CIPC_E_VIOLATED_ENERGY, "hhhhhv-h"}, {CIPC_E_VIOLATED_FINITE, "hhhhhh-v"},
-        {CIPC_E_VIOLATED_SWEPT, "hhhhvh-h"},    {CIPC_E_INDETERMINATE, "-----h-h"},
+        {CIPC_E_VIOLATED_SWEPT, "hhhhvh-h"},    {CIPC_E_INDETERMINATE, "-----h-h"}, {CIPC_E_VIOLATED_MOMENTUM, "hhhhhhvh"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         s.status = cases[i].status;
@@ -128,7 +131,8 @@ static void test_fields(void **state)
     json_t *o = written(&s);
     static const char *const integers[] = {"exit_status", "seed", "threads", "steps_asked", "steps_taken", "monitors.points_checked",
                                            "monitors.energy_checks", "monitors.exact_gap_checks", "monitors.exact_strain_checks",
-                                           "monitors.paths_checked", "monitors.exact_path_checks",
+                                           "monitors.paths_checked", "monitors.exact_path_checks", "monitors.momentum_checks",
+                                           "monitors.bodies_apart", "monitors.stitches",
                                            "extremes.max_contacts", "extremes.max_newton_iterations", "totals.newton_iterations",
                                            "totals.line_search_halvings", "totals.friction_passes", "totals.symbolic_analyses",
                                            "totals.factorizations", "peak_memory_kb"};
@@ -150,9 +154,39 @@ static void test_fields(void **state)
     assert_string_equal(json_string_value(at(o, "scene.size")), "ci");
     assert_string_equal(json_string_value(at(o, "invariants.M2")), "holds");
     assert_int_equal(json_object_size(at(o, "invariants")), 8);
+    assert_string_equal(json_string_value(at(o, "invariants.M7")), "not checked");
+    assert_true(json_is_null(at(o, "extremes.max_momentum_change")));
     assert_true(json_real_value(at(o, "monitors.percent")) == 25);
     assert_true(json_integer_value(at(o, "seed")) == 7);
     assert_string_equal(json_string_value(at(o, "versions.cipc")), cipc_version());
+    json_decref(o);
+}
+
+/* Of momentum the file says why there is no verdict, or by how much it changed at most. */
+static void test_momentum(void **state)
+{
+    (void)state;
+    cipc_run_summary s = good_run();
+    s.momentum_source = "gravity";
+    json_t *o = written(&s);
+    assert_string_equal(json_string_value(at(o, "invariants.M7")), "not checked: gravity");
+    json_decref(o);
+    s.monitored = false;
+    o = written(&s);
+    assert_string_equal(json_string_value(at(o, "invariants.M7")), "not checked");
+    json_decref(o);
+    s = good_run();
+    const cipc_step_report report = {.converged = true};
+    for (int i = 1; i <= 2; i++) {
+        cipc_step_invariants v = cipc_step_invariants_none();
+        v.momentum_checks = 1;
+        v.momentum_change = 1e-9 / i;
+        cipc_run_summary_add(&s, &report, &v);
+    }
+    o = written(&s);
+    assert_string_equal(json_string_value(at(o, "invariants.M7")), "holds");
+    assert_int_equal(json_integer_value(at(o, "monitors.momentum_checks")), 2);
+    assert_true(json_real_value(at(o, "extremes.max_momentum_change")) == 1e-9);
     json_decref(o);
 }
 
@@ -228,7 +262,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_verdicts_of_good_runs), cmocka_unit_test(test_verdicts_of_violations),
-        cmocka_unit_test(test_fields),                cmocka_unit_test(test_failed_run),
+        cmocka_unit_test(test_fields), cmocka_unit_test(test_momentum),                cmocka_unit_test(test_failed_run),
         cmocka_unit_test(test_interrupted_and_unmonitored_run), cmocka_unit_test(test_adding_steps),
         cmocka_unit_test(test_unwritable),
     };

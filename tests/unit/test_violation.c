@@ -26,13 +26,13 @@ static void test_fields(void **state)
     assert_int_equal(cipc_violation_write(file.text, &point, 0.04, &report, &violation, &error), CIPC_OK);
     json_t *o = json_load_file(file.text, JSON_REJECT_DUPLICATES, NULL);
     assert_non_null(o);
-    const char *status, *where, *what, *after, *pair;
+    const char *status, *where, *what, *after, *kind;
     int number, steps, iteration, comparable, a, b;
     double time, before, noise, gap;
     assert_int_equal(json_unpack(o, "{s:s, s:i, s:s, s:s, s:i, s:i, s:F, s:{s:b, s:F, s:s, s:F}, s:{s:F, s:[ii!], s:s}}", "status", &status,
                                  "number", &number, "where", &where, "what", &what, "steps_taken", &steps, "iteration", &iteration,
                                  "time_before", &time, "energy", "comparable", &comparable, "before", &before, "after", &after, "noise",
-                                 &noise, "report", "min_gap", &gap, "min_gap_nodes", &a, &b, "min_gap_pair", &pair),
+                                 &noise, "report", "min_gap", &gap, "min_gap_nodes", &a, &b, "min_gap_kind", &kind),
                      0);
     assert_string_equal(status, "VIOLATED_GAP");
     assert_int_equal(number, 3002);
@@ -41,7 +41,7 @@ static void test_fields(void **state)
     assert_string_equal(after, "nan");
     assert_true(steps == 4 && iteration == 2 && time == 0.04 && comparable && before == 2 && noise == 1e-9);
     assert_true(gap == -1e-7 && a == 5 && b == 9);
-    assert_string_equal(pair, "point_point");
+    assert_string_equal(kind, "point_point");
     json_decref(o);
     assert_int_equal(cipc_violation_write(file.text, &point, 0.04, NULL, &violation, &error), CIPC_OK);
     o = json_load_file(file.text, 0, NULL);
