@@ -67,8 +67,34 @@ void cipc_strain_limit_gradient(const double x[9], const cipc_strain_limit *para
 void cipc_strain_limit_hessian(const double x[9], const cipc_strain_limit *params, double H[81]);
 /* Principal stretches sigma_1 >= sigma_2 >= 0 of a triangle. */
 void cipc_principal_stretches(const double x[9], const double inverse_rest[3], double sigma[2]);
-/* The scalar barrier b(sigma) and its first two derivatives; 0 for sigma <= shat. Requires sigma < s. */
+/* The scalar barrier b(sigma) and its first two derivatives; 0 for sigma <= shat. Requires sigma < s. With s < shat it is the barrier of a lower
+ * limit: 0 for sigma >= shat, and sigma > s is required. */
 void cipc_strain_limit_barrier(double sigma, double limit, double activation, double b[3]);
+
+/* Lower strain limit: the same sum with b mirrored, which acts on stretches below shat and is infinite at the limit s, 0 < s < shat <= 1 (SPEC C.2).
+ * Returns false for a rest triangle of zero area and for numbers in any other order. */
+bool cipc_strain_limit_lower_init(cipc_strain_limit *params, const double rest[9], double thickness, double limit, double activation, double stiffness);
+double cipc_strain_limit_lower_value(const double x[9], const cipc_strain_limit *params);
+void cipc_strain_limit_lower_gradient(const double x[9], const cipc_strain_limit *params, double g[9]);
+void cipc_strain_limit_lower_hessian(const double x[9], const cipc_strain_limit *params, double H[81]);
+
+/* Orthotropic membrane with its own limits, in Green strains E along warp, weft and between them (SPEC C.3, eqs 8-10 as corrected there):
+ * V [a11/2 eta(E11^2; L11^2) + a12 eta(E11 E22; L11 L22) + a22/2 eta(E22^2; L22^2) + g12 eta(E12^2; L12^2)], eta(q; Q) = -Q ln((Q - q)/Q),
+ * INFINITY unless |E11| < L11, |E22| < L22 and |E12| < L12. */
+typedef struct cipc_orthotropic {
+    double warp[2], weft[2];            /* present image of the unit warp direction: f1 = warp[0] (x1-x0) + warp[1] (x2-x0); of weft likewise f2 */
+    double rest_cosine;                 /* d1.d2 of the unit rest directions; E12 = (f1.f2 - d1.d2)/2 */
+    double volume;                      /* m^3 */
+    double a11, a12, a22, g12;          /* Pa */
+    double limit11, limit22, limit12;   /* of the Green strains */
+} cipc_orthotropic;
+/* Directions are projected onto the plane of the rest triangle and normalised; weft NULL: across the warp. moduli = a11, a12, a22, g12; limits = L11,
+ * L22, L12. Returns false, and writes nothing, for a rest triangle of zero area, a direction across its plane, or directions that are parallel. */
+bool cipc_orthotropic_init(cipc_orthotropic *params, const double rest[9], double thickness, const double warp[3], const double *weft, const double moduli[4],
+                           const double limits[3]);
+double cipc_membrane_orthotropic_value(const double x[9], const cipc_orthotropic *params);
+void cipc_membrane_orthotropic_gradient(const double x[9], const cipc_orthotropic *params, double g[9]);
+void cipc_membrane_orthotropic_hessian(const double x[9], const cipc_orthotropic *params, double H[81]);
 
 /* --- hinges: x = v0, v1 (shared edge), v2, v3; triangles (v0,v1,v2) and (v1,v0,v3) ------------------------------------------ */
 
@@ -84,6 +110,28 @@ double cipc_hinge_angle(const double x[12]);
 double cipc_hinge_bending_value(const double x[12], const cipc_hinge_bending *params);
 void cipc_hinge_bending_gradient(const double x[12], const cipc_hinge_bending *params, double g[12]);
 void cipc_hinge_bending_hessian(const double x[12], const cipc_hinge_bending *params, double H[144]);
+
+/* --- tetrahedra: x = x0, x1, x2, x3, of positive orientation at rest ---------------------------------------------------------------- */
+
+/* Rest data of a tetrahedron. B = [X1-X0, X2-X0, X3-X0]; F = [x1-x0, x2-x0, x3-x0] B^-1; J = det F. */
+typedef struct cipc_volume {
+    double inverse_rest[9]; /* B^-1, row-major */
+    double volume;          /* m^3 */
+    double mu, lambda;      /* Pa; mu = E/(2(1+nu)), lambda = E nu/((1+nu)(1-2nu)) (SPEC C.6) */
+} cipc_volume;
+/* Returns false, and writes nothing, unless the rest volume is a positive finite number. */
+bool cipc_volume_init(cipc_volume *params, const double rest[12], double young, double poisson);
+
+/* Fixed corotational, the volumes of the C-IPC paper (F5): V [mu |F - R|^2 + lambda/2 (J-1)^2], R the rotation nearest to F. INFINITY for J <= 0:
+ * the formula would go on there, but a line search that halves until the value is finite then keeps tetrahedra from inverting. */
+double cipc_volume_corotational_value(const double x[12], const cipc_volume *params);
+void cipc_volume_corotational_gradient(const double x[12], const cipc_volume *params, double g[12]);
+void cipc_volume_corotational_hessian(const double x[12], const cipc_volume *params, double H[144]);
+
+/* Neo-Hookean, the volumes of the released code (F5): V [mu/2 (tr F^T F - 3) - mu ln J + lambda/2 (ln J)^2]; INFINITY for J <= 0 (SPEC C.6). */
+double cipc_volume_neo_hookean_value(const double x[12], const cipc_volume *params);
+void cipc_volume_neo_hookean_gradient(const double x[12], const cipc_volume *params, double g[12]);
+void cipc_volume_neo_hookean_hessian(const double x[12], const cipc_volume *params, double H[144]);
 
 /* --- contact ---------------------------------------------------------------------------------------------------------------- */
 
@@ -162,7 +210,10 @@ typedef struct cipc_energy {
 
 typedef enum cipc_energy_id {
     CIPC_ENERGY_INERTIA = 0, CIPC_ENERGY_GRAVITY, CIPC_ENERGY_DIRICHLET_PENALTY,
-    CIPC_ENERGY_MEMBRANE_NEO_HOOKEAN, CIPC_ENERGY_MEMBRANE_STVK, CIPC_ENERGY_STRAIN_LIMIT, CIPC_ENERGY_HINGE_BENDING,
+    CIPC_ENERGY_MEMBRANE_NEO_HOOKEAN, CIPC_ENERGY_MEMBRANE_STVK, CIPC_ENERGY_STRAIN_LIMIT,
+    CIPC_ENERGY_STRAIN_LIMIT_LOWER, CIPC_ENERGY_MEMBRANE_ORTHOTROPIC,
+    CIPC_ENERGY_HINGE_BENDING,
+    CIPC_ENERGY_VOLUME_COROTATIONAL, CIPC_ENERGY_VOLUME_NEO_HOOKEAN,
     CIPC_ENERGY_BARRIER_POINT_POINT, CIPC_ENERGY_BARRIER_POINT_EDGE, CIPC_ENERGY_BARRIER_POINT_TRIANGLE, CIPC_ENERGY_BARRIER_EDGE_EDGE,
     CIPC_ENERGY_FRICTION,
     CIPC_ENERGY_COUNT

@@ -25,7 +25,11 @@ THUNKS(dirichlet_penalty, cipc_dirichlet_penalty)
 THUNKS(membrane_neo_hookean, cipc_membrane)
 THUNKS(membrane_stvk, cipc_membrane)
 THUNKS(strain_limit, cipc_strain_limit)
+THUNKS(strain_limit_lower, cipc_strain_limit)
+THUNKS(membrane_orthotropic, cipc_orthotropic)
 THUNKS(hinge_bending, cipc_hinge_bending)
+THUNKS(volume_corotational, cipc_volume)
+THUNKS(volume_neo_hookean, cipc_volume)
 THUNKS(barrier_point_point, cipc_contact_barrier)
 THUNKS(barrier_point_edge, cipc_contact_barrier)
 THUNKS(barrier_point_triangle, cipc_contact_barrier)
@@ -54,8 +58,16 @@ static const cipc_energy table[CIPC_ENERGY_COUNT] = {
         ENTRY(membrane_stvk, cipc_membrane, 3, RIGID, membrane, ENERGY_MEMBRANE_BRANCHES, energy_membrane_branch_names, 5, energy_fields_membrane),
     [CIPC_ENERGY_STRAIN_LIMIT] =
         ENTRY(strain_limit, cipc_strain_limit, 3, RIGID, strain_limit, ENERGY_STRAIN_LIMIT_BRANCHES, energy_strain_limit_branch_names, 5, energy_fields_strain_limit),
+    [CIPC_ENERGY_STRAIN_LIMIT_LOWER] = ENTRY(strain_limit_lower, cipc_strain_limit, 3, RIGID, strain_limit_lower, ENERGY_STRAIN_LIMIT_LOWER_BRANCHES,
+                                             energy_strain_limit_lower_branch_names, 5, energy_fields_strain_limit),
+    [CIPC_ENERGY_MEMBRANE_ORTHOTROPIC] = ENTRY(membrane_orthotropic, cipc_orthotropic, 3, RIGID, membrane_orthotropic, ENERGY_ORTHOTROPIC_BRANCHES,
+                                               energy_orthotropic_branch_names, 11, energy_fields_orthotropic),
     [CIPC_ENERGY_HINGE_BENDING] =
         ENTRY(hinge_bending, cipc_hinge_bending, 4, RIGID, hinge_bending, ENERGY_HINGE_BRANCHES, energy_hinge_branch_names, 2, energy_fields_hinge_bending),
+    [CIPC_ENERGY_VOLUME_COROTATIONAL] =
+        ENTRY(volume_corotational, cipc_volume, 4, RIGID, volume, ENERGY_VOLUME_BRANCHES, energy_volume_branch_names, 4, energy_fields_volume),
+    [CIPC_ENERGY_VOLUME_NEO_HOOKEAN] =
+        ENTRY(volume_neo_hookean, cipc_volume, 4, RIGID, volume, ENERGY_VOLUME_BRANCHES, energy_volume_branch_names, 4, energy_fields_volume),
     [CIPC_ENERGY_BARRIER_POINT_POINT] = ENTRY(barrier_point_point, cipc_contact_barrier, 2, RIGID, barrier_point_point,
                                               ENERGY_CONTACT_BRANCHES, energy_contact_branch_names, ENERGY_BARRIER_PLAIN_FIELDS, energy_fields_barrier),
     [CIPC_ENERGY_BARRIER_POINT_EDGE] = ENTRY(barrier_point_edge, cipc_contact_barrier, 3, RIGID, barrier_point_edge,

@@ -66,7 +66,7 @@ int energy_branch_dirichlet_penalty(const double *x, const void *params)
 /* --- triangles --- */
 
 /* Positions with F = sigma_1 u_1 v_1^T + sigma_2 u_2 v_2^T for a random rotation of the plane (v) and of space (u). */
-static void draw_deformed_triangle(gsl_rng *rng, const double inverse_rest[3], const double sigma[2], double x[9])
+void energy_draw_deformed_triangle(gsl_rng *rng, const double inverse_rest[3], const double sigma[2], double x[9])
 {
     double angle = energy_draw_uniform(rng, -3.15, 3.15), c = cos(angle), s = sin(angle);
     double base[2] = {1 / inverse_rest[0], 0}; /* columns of B */
@@ -111,7 +111,7 @@ void energy_sample_membrane(gsl_rng *rng, int branch, double *x, void *params)
            poisson = energy_draw_uniform(rng, 0, 0.49);
     (void)cipc_membrane_init(params, rest, thickness, young, poisson);
     draw_stretches(rng, branch, sigma);
-    draw_deformed_triangle(rng, ((const cipc_membrane *)params)->inverse_rest, sigma, x);
+    energy_draw_deformed_triangle(rng, ((const cipc_membrane *)params)->inverse_rest, sigma, x);
 }
 
 int energy_branch_membrane(const double *x, const void *params)
@@ -150,7 +150,7 @@ void energy_sample_strain_limit(gsl_rng *rng, int branch, double *x, void *param
         sigma[0] = limit - width * energy_draw_log(rng, 1e-6, 0.9 * LIMIT_T);
         if (energy_draw_index(rng, 2)) sigma[1] = activation + width * energy_draw_uniform(rng, 0, 0.99);
     }
-    draw_deformed_triangle(rng, ((const cipc_strain_limit *)params)->inverse_rest, sigma, x);
+    energy_draw_deformed_triangle(rng, ((const cipc_strain_limit *)params)->inverse_rest, sigma, x);
 }
 
 int energy_branch_strain_limit(const double *x, const void *params)

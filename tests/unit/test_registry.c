@@ -28,7 +28,11 @@ static const promise promises[CIPC_ENERGY_COUNT] = {
     [CIPC_ENERGY_MEMBRANE_NEO_HOOKEAN] = {"membrane_neo_hookean", 3, sizeof(cipc_membrane), RIGID},
     [CIPC_ENERGY_MEMBRANE_STVK] = {"membrane_stvk", 3, sizeof(cipc_membrane), RIGID},
     [CIPC_ENERGY_STRAIN_LIMIT] = {"strain_limit", 3, sizeof(cipc_strain_limit), RIGID},
+    [CIPC_ENERGY_STRAIN_LIMIT_LOWER] = {"strain_limit_lower", 3, sizeof(cipc_strain_limit), RIGID},
+    [CIPC_ENERGY_MEMBRANE_ORTHOTROPIC] = {"membrane_orthotropic", 3, sizeof(cipc_orthotropic), RIGID},
     [CIPC_ENERGY_HINGE_BENDING] = {"hinge_bending", 4, sizeof(cipc_hinge_bending), RIGID},
+    [CIPC_ENERGY_VOLUME_COROTATIONAL] = {"volume_corotational", 4, sizeof(cipc_volume), RIGID},
+    [CIPC_ENERGY_VOLUME_NEO_HOOKEAN] = {"volume_neo_hookean", 4, sizeof(cipc_volume), RIGID},
     [CIPC_ENERGY_BARRIER_POINT_POINT] = {"barrier_point_point", 2, sizeof(cipc_contact_barrier), RIGID},
     [CIPC_ENERGY_BARRIER_POINT_EDGE] = {"barrier_point_edge", 3, sizeof(cipc_contact_barrier), RIGID},
     [CIPC_ENERGY_BARRIER_POINT_TRIANGLE] = {"barrier_point_triangle", 4, sizeof(cipc_contact_barrier), RIGID},
@@ -102,7 +106,11 @@ static void test_entries_call_their_functions(void **state)
     CHECK_THUNKS(membrane_neo_hookean, cipc_membrane);
     CHECK_THUNKS(membrane_stvk, cipc_membrane);
     CHECK_THUNKS(strain_limit, cipc_strain_limit);
+    CHECK_THUNKS(strain_limit_lower, cipc_strain_limit);
+    CHECK_THUNKS(membrane_orthotropic, cipc_orthotropic);
     CHECK_THUNKS(hinge_bending, cipc_hinge_bending);
+    CHECK_THUNKS(volume_corotational, cipc_volume);
+    CHECK_THUNKS(volume_neo_hookean, cipc_volume);
     CHECK_THUNKS(barrier_point_point, cipc_contact_barrier);
     CHECK_THUNKS(barrier_point_edge, cipc_contact_barrier);
     CHECK_THUNKS(barrier_point_triangle, cipc_contact_barrier);
