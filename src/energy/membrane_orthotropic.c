@@ -1,4 +1,4 @@
-/* Orthotropic membrane with limits of its Green strains (SPEC C.3, eqs 8-10 as corrected there; docs/theory/energies.md (14a)-(14h)). */
+/* Orthotropic membrane with limits of its Green strains (SPEC C.3, eqs 8-10 as corrected there; docs/theory/energies.md (14a)-(14g)). */
 #include "cipc/energy.h"
 #include "energy/blocks.h"
 #include "energy/stretch_energy.h"

@@ -1,4 +1,4 @@
-/* Polar decomposition by Newton's iteration with scaling (Higham; docs/theory/energies.md (V6)). It never forms F^T F, which would square the condition. */
+/* Polar decomposition by Newton's iteration with scaling (Higham; docs/theory/energies.md (V10)). It never forms F^T F, which would square the condition. */
 #include "energy/polar_rotation.h"
 
 #include <math.h>

@@ -1,4 +1,4 @@
-/* Fixed corotational tetrahedron: V [mu |F - R|^2 + lambda/2 (J - 1)^2] (the C-IPC paper; docs/theory/energies.md (V6)-(V10)). */
+/* Fixed corotational tetrahedron: V [mu |F - R|^2 + lambda/2 (J - 1)^2] (the C-IPC paper; docs/theory/energies.md (V6)-(V9)). */
 #include "cipc/energy.h"
 #include "energy/blocks.h"
 #include "energy/inverse3.h"

@@ -127,6 +127,22 @@ static void test_hessian_of_a_dilation(void **state)
     }
 }
 
+/* Both active and unequal: A = (b_1' - b_2')/(sigma_1 - sigma_2). */
+static void test_hessian_with_both_stretches_active(void **state)
+{
+    (void)state;
+    cipc_strain_limit p = limit_of(0.5, 1);
+    double x[SIZE], H[SIZE * SIZE], b[2][3], scale = 1000 * 0.05, large = 0.875, small = 0.625;
+    cipc_strain_limit_lower_hessian(stretched(large, small, x), &p, H);
+    cipc_strain_limit_barrier(large, 0.5, 1, b[0]);
+    cipc_strain_limit_barrier(small, 0.5, 1, b[1]);
+    double A = (b[0][1] - b[1][1]) / (large - small), mean = (b[0][1] + b[1][1]) / (large + small);
+    assert_relative(H[4 * SIZE + 4], scale * 0.5 * (A + mean), ROUNDINGS);
+    assert_relative(H[4 * SIZE + 6], scale * 0.5 * (A - mean), ROUNDINGS);
+    assert_relative(H[3 * SIZE + 3], scale * b[0][2], ROUNDINGS);
+    assert_relative(H[7 * SIZE + 7], scale * b[1][2], ROUNDINGS);
+}
+
 /* One stretch active: A = b'/(sigma - other), A' = b'/(sigma + other). */
 static void test_hessian_with_one_stretch_active(void **state)
 {
@@ -162,6 +178,7 @@ int main(void)
         cmocka_unit_test(test_value_sums_the_stretches_and_ends_at_the_limit),
         cmocka_unit_test(test_gradient_of_a_dilation),
         cmocka_unit_test(test_hessian_of_a_dilation),
+        cmocka_unit_test(test_hessian_with_both_stretches_active),
         cmocka_unit_test(test_hessian_with_one_stretch_active),
         cmocka_unit_test(test_inactive_triangles_are_zero),
     };
