@@ -53,43 +53,48 @@ double cipc_membrane_stvk_value(const double x[9], const cipc_membrane *params);
 void cipc_membrane_stvk_gradient(const double x[9], const cipc_membrane *params, double g[9]);
 void cipc_membrane_stvk_hessian(const double x[9], const cipc_membrane *params, double H[81]);
 
-/* Orthotropic cloth (paper, eqs 8-10, as corrected in SPEC C.3): V [a11/2 eta(E11^2; L11^2) + a12 eta(E11 E22; L11 L22) + a22/2 eta(E22^2; L22^2) + G12 eta(E12^2; L12^2)],
- * eta(q; Q) = -Q ln((Q - q)/Q), E the Green strain along warp (1) and weft (2). INFINITY unless every strain is below its limit in size. */
-typedef struct cipc_orthotropic {
-    double warp[2], weft[2]; /* present image of the unit directions: f1 = warp[0] (x1-x0) + warp[1] (x2-x0), f2 likewise, 1/m */
-    double rest_cosine;      /* of the two directions at rest; 0: orthogonal */
-    double volume;           /* m^3 */
-    double moduli[4];        /* a11, a12, a22, G12, Pa */
-    double limits[3];        /* L11, L22, L12 */
-} cipc_orthotropic;
-/* Directions are projected onto the rest triangle's plane; weft 0: across the warp. False for a triangle of no area, a direction across its plane, parallel directions. */
-bool cipc_orthotropic_init(cipc_orthotropic *params, const double rest[9], double thickness, const double warp[3], const double weft[3], const double moduli[4],
-                           const double limits[3]);
-/* E11, E22, E12. */
-void cipc_orthotropic_strains(const double x[9], const cipc_orthotropic *params, double strain[3]);
-double cipc_membrane_orthotropic_value(const double x[9], const cipc_orthotropic *params);
-void cipc_membrane_orthotropic_gradient(const double x[9], const cipc_orthotropic *params, double g[9]);
-void cipc_membrane_orthotropic_hessian(const double x[9], const cipc_orthotropic *params, double H[81]);
-
-/* Isotropic strain limit: kappa_s V sum_i b(sigma_i), sigma_i the singular values of F, b of SPEC C.2 (eqs 4-7 as corrected there). Upper: stretches above shat, up to s > shat.
- * Lower: stretches below shat, down to s < shat. */
+/* Isotropic strain limit: kappa_s V sum_i b(sigma_i), sigma_i the singular values of F, b of SPEC C.2 (eqs 4-7 as corrected there). */
 typedef struct cipc_strain_limit {
     double inverse_rest[3];
     double volume;
     double limit;      /* s */
-    double activation; /* shat; below s: an upper limit, above: a lower one */
+    double activation; /* shat */
     double stiffness;  /* kappa_s, Pa */
 } cipc_strain_limit;
 bool cipc_strain_limit_init(cipc_strain_limit *params, const double rest[9], double thickness, double limit, double activation, double stiffness);
 double cipc_strain_limit_value(const double x[9], const cipc_strain_limit *params);
 void cipc_strain_limit_gradient(const double x[9], const cipc_strain_limit *params, double g[9]);
 void cipc_strain_limit_hessian(const double x[9], const cipc_strain_limit *params, double H[81]);
-/* Are these stretches on the allowed side of the limit, by a relative margin? */
-bool cipc_strain_limit_feasible(const double sigma[2], const cipc_strain_limit *params, double margin);
 /* Principal stretches sigma_1 >= sigma_2 >= 0 of a triangle. */
 void cipc_principal_stretches(const double x[9], const double inverse_rest[3], double sigma[2]);
-/* The scalar barrier b(sigma) and its first two derivatives; 0 up to shat. Requires sigma short of s. */
+/* The scalar barrier b(sigma) and its first two derivatives; 0 for sigma <= shat. Requires sigma < s. With s < shat it is the barrier of a lower
+ * limit: 0 for sigma >= shat, and sigma > s is required. */
 void cipc_strain_limit_barrier(double sigma, double limit, double activation, double b[3]);
+
+/* Lower strain limit: the same sum with b mirrored, which acts on stretches below shat and is infinite at the limit s, 0 < s < shat <= 1 (SPEC C.2).
+ * Returns false for a rest triangle of zero area and for numbers in any other order. */
+bool cipc_strain_limit_lower_init(cipc_strain_limit *params, const double rest[9], double thickness, double limit, double activation, double stiffness);
+double cipc_strain_limit_lower_value(const double x[9], const cipc_strain_limit *params);
+void cipc_strain_limit_lower_gradient(const double x[9], const cipc_strain_limit *params, double g[9]);
+void cipc_strain_limit_lower_hessian(const double x[9], const cipc_strain_limit *params, double H[81]);
+
+/* Orthotropic membrane with its own limits, in Green strains E along warp, weft and between them (SPEC C.3, eqs 8-10 as corrected there):
+ * V [a11/2 eta(E11^2; L11^2) + a12 eta(E11 E22; L11 L22) + a22/2 eta(E22^2; L22^2) + g12 eta(E12^2; L12^2)], eta(q; Q) = -Q ln((Q - q)/Q),
+ * INFINITY unless |E11| < L11, |E22| < L22 and |E12| < L12. */
+typedef struct cipc_orthotropic {
+    double warp[2], weft[2];            /* present image of the unit warp direction: f1 = warp[0] (x1-x0) + warp[1] (x2-x0); of weft likewise f2 */
+    double rest_cosine;                 /* d1.d2 of the unit rest directions; E12 = (f1.f2 - d1.d2)/2 */
+    double volume;                      /* m^3 */
+    double a11, a12, a22, g12;          /* Pa */
+    double limit11, limit22, limit12;   /* of the Green strains */
+} cipc_orthotropic;
+/* Directions are projected onto the plane of the rest triangle and normalised; weft NULL: across the warp. moduli = a11, a12, a22, g12; limits = L11,
+ * L22, L12. Returns false, and writes nothing, for a rest triangle of zero area, a direction across its plane, or directions that are parallel. */
+bool cipc_orthotropic_init(cipc_orthotropic *params, const double rest[9], double thickness, const double warp[3], const double *weft, const double moduli[4],
+                           const double limits[3]);
+double cipc_membrane_orthotropic_value(const double x[9], const cipc_orthotropic *params);
+void cipc_membrane_orthotropic_gradient(const double x[9], const cipc_orthotropic *params, double g[9]);
+void cipc_membrane_orthotropic_hessian(const double x[9], const cipc_orthotropic *params, double H[81]);
 
 /* --- hinges: x = v0, v1 (shared edge), v2, v3; triangles (v0,v1,v2) and (v1,v0,v3) ------------------------------------------ */
 
@@ -140,23 +145,24 @@ typedef struct cipc_stitch {
 double cipc_stitch_value(const double x[9], const cipc_stitch *params);
 void cipc_stitch_gradient(const double x[9], const cipc_stitch *params, double g[9]);
 void cipc_stitch_hessian(const double x[9], const cipc_stitch *params, double H[81]);
+/* --- tetrahedra: x = x0, x1, x2, x3, of positive orientation at rest ---------------------------------------------------------------- */
 
-/* --- tetrahedra: x = x0, x1, x2, x3 with det[x1-x0, x2-x0, x3-x0] > 0 -------------------------------------------------------- */
-
-/* Rest data of a tetrahedron. F = [x1-x0, x2-x0, x3-x0] B^-1. */
+/* Rest data of a tetrahedron. B = [X1-X0, X2-X0, X3-X0]; F = [x1-x0, x2-x0, x3-x0] B^-1; J = det F. */
 typedef struct cipc_volume {
-    double inverse_rest[9]; /* B^-1, row-major, 1/m */
-    double volume;          /* V, m^3 */
-    double mu, lambda;      /* Pa */
+    double inverse_rest[9]; /* B^-1, row-major */
+    double volume;          /* m^3 */
+    double mu, lambda;      /* Pa; mu = E/(2(1+nu)), lambda = E nu/((1+nu)(1-2nu)) (SPEC C.6) */
 } cipc_volume;
-/* Returns false unless the rest volume is positive and finite. */
+/* Returns false, and writes nothing, unless the rest volume is a positive finite number. */
 bool cipc_volume_init(cipc_volume *params, const double rest[12], double young, double poisson);
 
-/* Fixed corotational: V [mu |F - R|^2 + lambda/2 (J - 1)^2], R the rotation of the polar decomposition; INFINITY for J <= 0 (SPEC C.6, F5). */
+/* Fixed corotational, the volumes of the C-IPC paper (F5): V [mu |F - R|^2 + lambda/2 (J-1)^2], R the rotation nearest to F. INFINITY for J <= 0:
+ * the formula would go on there, but a line search that halves until the value is finite then keeps tetrahedra from inverting. */
 double cipc_volume_corotational_value(const double x[12], const cipc_volume *params);
 void cipc_volume_corotational_gradient(const double x[12], const cipc_volume *params, double g[12]);
 void cipc_volume_corotational_hessian(const double x[12], const cipc_volume *params, double H[144]);
-/* Neo-Hookean: V [mu/2 (tr F^T F - 3) - mu ln J + lambda/2 (ln J)^2]; INFINITY for J <= 0. */
+
+/* Neo-Hookean, the volumes of the released code (F5): V [mu/2 (tr F^T F - 3) - mu ln J + lambda/2 (ln J)^2]; INFINITY for J <= 0 (SPEC C.6). */
 double cipc_volume_neo_hookean_value(const double x[12], const cipc_volume *params);
 void cipc_volume_neo_hookean_gradient(const double x[12], const cipc_volume *params, double g[12]);
 void cipc_volume_neo_hookean_hessian(const double x[12], const cipc_volume *params, double H[144]);
@@ -238,8 +244,11 @@ typedef struct cipc_energy {
 
 typedef enum cipc_energy_id {
     CIPC_ENERGY_INERTIA = 0, CIPC_ENERGY_GRAVITY, CIPC_ENERGY_DIRICHLET_PENALTY,
-    CIPC_ENERGY_MEMBRANE_NEO_HOOKEAN, CIPC_ENERGY_MEMBRANE_STVK, CIPC_ENERGY_MEMBRANE_ORTHOTROPIC, CIPC_ENERGY_STRAIN_LIMIT, CIPC_ENERGY_HINGE_BENDING,
-    CIPC_ENERGY_ROD_STRETCHING, CIPC_ENERGY_ROD_BENDING, CIPC_ENERGY_STITCH, CIPC_ENERGY_VOLUME_COROTATIONAL, CIPC_ENERGY_VOLUME_NEO_HOOKEAN,
+    CIPC_ENERGY_MEMBRANE_NEO_HOOKEAN, CIPC_ENERGY_MEMBRANE_STVK, CIPC_ENERGY_STRAIN_LIMIT,
+    CIPC_ENERGY_STRAIN_LIMIT_LOWER, CIPC_ENERGY_MEMBRANE_ORTHOTROPIC,
+    CIPC_ENERGY_HINGE_BENDING,
+    CIPC_ENERGY_ROD_STRETCHING, CIPC_ENERGY_ROD_BENDING, CIPC_ENERGY_STITCH,
+    CIPC_ENERGY_VOLUME_COROTATIONAL, CIPC_ENERGY_VOLUME_NEO_HOOKEAN,
     CIPC_ENERGY_BARRIER_POINT_POINT, CIPC_ENERGY_BARRIER_POINT_EDGE, CIPC_ENERGY_BARRIER_POINT_TRIANGLE, CIPC_ENERGY_BARRIER_EDGE_EDGE,
     CIPC_ENERGY_FRICTION,
     CIPC_ENERGY_COUNT

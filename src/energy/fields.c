@@ -14,12 +14,14 @@ const cipc_energy_field energy_fields_membrane[5] = {MANY(cipc_membrane, inverse
                                              ONE(cipc_membrane, lambda)};
 const cipc_energy_field energy_fields_strain_limit[5] = {MANY(cipc_strain_limit, inverse_rest, 3), ONE(cipc_strain_limit, volume), ONE(cipc_strain_limit, limit),
                                                  ONE(cipc_strain_limit, activation), ONE(cipc_strain_limit, stiffness)};
+const cipc_energy_field energy_fields_orthotropic[11] = {MANY(cipc_orthotropic, warp, 2), MANY(cipc_orthotropic, weft, 2), ONE(cipc_orthotropic, rest_cosine),
+                                                ONE(cipc_orthotropic, volume), ONE(cipc_orthotropic, a11), ONE(cipc_orthotropic, a12), ONE(cipc_orthotropic, a22),
+                                                ONE(cipc_orthotropic, g12), ONE(cipc_orthotropic, limit11), ONE(cipc_orthotropic, limit22),
+                                                ONE(cipc_orthotropic, limit12)};
 const cipc_energy_field energy_fields_hinge_bending[2] = {ONE(cipc_hinge_bending, stiffness), ONE(cipc_hinge_bending, rest_angle)};
 const cipc_energy_field energy_fields_rod_stretching[2] = {ONE(cipc_rod_stretching, stiffness), ONE(cipc_rod_stretching, length)};
 const cipc_energy_field energy_fields_rod_bending[2] = {ONE(cipc_rod_bending, stiffness), ONE(cipc_rod_bending, rest_curvature)};
 const cipc_energy_field energy_fields_stitch[2] = {ONE(cipc_stitch, stiffness), ONE(cipc_stitch, ratio)};
-const cipc_energy_field energy_fields_orthotropic[6] = {MANY(cipc_orthotropic, warp, 2),   MANY(cipc_orthotropic, weft, 2),   ONE(cipc_orthotropic, rest_cosine),
-                                                        ONE(cipc_orthotropic, volume), MANY(cipc_orthotropic, moduli, 4), MANY(cipc_orthotropic, limits, 3)};
 const cipc_energy_field energy_fields_volume[4] = {MANY(cipc_volume, inverse_rest, 9), ONE(cipc_volume, volume), ONE(cipc_volume, mu), ONE(cipc_volume, lambda)};
 const cipc_energy_field energy_fields_barrier[6] = {ONE(cipc_contact_barrier, stiffness), ONE(cipc_contact_barrier, weight), ONE(cipc_contact_barrier, offset),
                                             ONE(cipc_contact_barrier, dhat), ONE(cipc_contact_barrier, mollifier_eps),

@@ -1,32 +1,38 @@
-/* Polar decomposition by Newton's iteration R <- (g R + R^-T/g)/2 with Frobenius scaling g (docs/theory/energies.md (46)). */
+/* Polar decomposition by Newton's iteration with scaling (Higham; docs/theory/energies.md (V10)). It never forms F^T F, which would square the condition. */
 #include "energy/polar_rotation.h"
 
-#include <float.h>
-#include <string.h>
+#include <math.h>
 
-#include "base/vector.h"
+#include "energy/inverse3.h"
 
-/* Scaled, a matrix of condition 1e16 takes nine iterations; the last ones square the error. */
-enum { ITERATIONS = 30 };
-/* Scaling is left off once it would change less than this: then the iteration is Newton's, quadratic. */
-static const double SCALING_ENDS = 1e-2;
+/* A step of this length ends the iteration: X is then within it of R and the scale within it of 1, so that what the step has left, half the square of
+ * their sum, is 2^-55. */
+static const double LAST_STEP = 0x1p-28;
+/* Scaled iterations halve the exponent of the condition number: 2^1000 is down to 2^1 after ten of them, and five square away the rest. */
+enum { MOST_STEPS = 20 };
 
-static double frobenius2(double m[3][3]) { return v3_norm2(m[0]) + v3_norm2(m[1]) + v3_norm2(m[2]); }
-
-void energy_polar_rotation(double f[3][3], double r[3][3])
+static double frobenius(const double A[9])
 {
-    memcpy(r, f, 9 * sizeof(double));
-    for (int iteration = 0; iteration < ITERATIONS; iteration++) {
-        double inverse[3][3], change = 0; /* R^-T: the cofactors by the determinant */
-        for (int c = 0; c < 3; c++) v3_cross(inverse[c], r[(c + 1) % 3], r[(c + 2) % 3]);
-        double determinant = v3_dot(r[0], inverse[0]), g = sqrt(sqrt(frobenius2(inverse) / frobenius2(r)) / determinant);
-        if (fabs(g - 1) < SCALING_ENDS) g = 1;
-        for (int c = 0; c < 3; c++)
-            for (int k = 0; k < 3; k++) {
-                double next = 0.5 * (g * r[c][k] + inverse[c][k] / (g * determinant));
-                change = fmax(change, fabs(next - r[c][k]));
-                r[c][k] = next;
+    double sum = 0;
+    for (int i = 0; i < 9; i++) sum += A[i] * A[i];
+    return sqrt(sum);
+}
+
+bool energy_polar_rotation(const double F[9], double R[9])
+{
+    double inverse[9];
+    for (int i = 0; i < 9; i++) R[i] = F[i];
+    for (int step = 0; step < MOST_STEPS; step++) {
+        if (!(energy_inverse3(R, inverse) > 0)) return false;
+        double scale = sqrt(frobenius(inverse) / frobenius(R)), moved = 0;
+        for (int i = 0; i < 3; i++) {
+            for (int j = 0; j < 3; j++) {
+                double next = 0.5 * (scale * R[3 * i + j] + inverse[3 * j + i] / scale);
+                moved = fmax(moved, fabs(next - R[3 * i + j]));
+                R[3 * i + j] = next;
             }
-        if (change <= 2 * DBL_EPSILON) return;
+        }
+        if (moved <= LAST_STEP) return true;
     }
+    return false;
 }

@@ -1,9 +1,10 @@
-/* The rotation nearest to a deformation gradient. */
+/* The rotation R of the polar decomposition F = R S, S symmetric and positive definite, of a 3x3 matrix, row-major. */
 #ifndef CIPC_ENERGY_POLAR_ROTATION_H
 #define CIPC_ENERGY_POLAR_ROTATION_H
 
-/* F = R S, R a rotation and S symmetric positive definite, for det F > 0; matrices by their columns. Scaled Newton iteration (Higham): R and S are good to some u, as are those
- * of a matrix next to F. */
-void energy_polar_rotation(double f[3][3], double r[3][3]);
+#include <stdbool.h>
+
+/* False if det F > 0 does not hold, or F is so near to singular that doubles do not determine R. */
+bool energy_polar_rotation(const double F[9], double R[9]);
 
 #endif

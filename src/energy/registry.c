@@ -24,8 +24,9 @@ THUNKS(gravity, cipc_gravity)
 THUNKS(dirichlet_penalty, cipc_dirichlet_penalty)
 THUNKS(membrane_neo_hookean, cipc_membrane)
 THUNKS(membrane_stvk, cipc_membrane)
-THUNKS(membrane_orthotropic, cipc_orthotropic)
 THUNKS(strain_limit, cipc_strain_limit)
+THUNKS(strain_limit_lower, cipc_strain_limit)
+THUNKS(membrane_orthotropic, cipc_orthotropic)
 THUNKS(hinge_bending, cipc_hinge_bending)
 THUNKS(rod_stretching, cipc_rod_stretching)
 THUNKS(rod_bending, cipc_rod_bending)
@@ -58,10 +59,12 @@ static const cipc_energy table[CIPC_ENERGY_COUNT] = {
         ENTRY(membrane_neo_hookean, cipc_membrane, 3, RIGID, membrane, ENERGY_MEMBRANE_BRANCHES, energy_membrane_branch_names, 5, energy_fields_membrane),
     [CIPC_ENERGY_MEMBRANE_STVK] =
         ENTRY(membrane_stvk, cipc_membrane, 3, RIGID, membrane, ENERGY_MEMBRANE_BRANCHES, energy_membrane_branch_names, 5, energy_fields_membrane),
-    [CIPC_ENERGY_MEMBRANE_ORTHOTROPIC] = ENTRY(membrane_orthotropic, cipc_orthotropic, 3, RIGID, orthotropic, ENERGY_ORTHOTROPIC_BRANCHES,
-                                               energy_orthotropic_branch_names, 6, energy_fields_orthotropic),
     [CIPC_ENERGY_STRAIN_LIMIT] =
         ENTRY(strain_limit, cipc_strain_limit, 3, RIGID, strain_limit, ENERGY_STRAIN_LIMIT_BRANCHES, energy_strain_limit_branch_names, 5, energy_fields_strain_limit),
+    [CIPC_ENERGY_STRAIN_LIMIT_LOWER] = ENTRY(strain_limit_lower, cipc_strain_limit, 3, RIGID, strain_limit_lower, ENERGY_STRAIN_LIMIT_LOWER_BRANCHES,
+                                             energy_strain_limit_lower_branch_names, 5, energy_fields_strain_limit),
+    [CIPC_ENERGY_MEMBRANE_ORTHOTROPIC] = ENTRY(membrane_orthotropic, cipc_orthotropic, 3, RIGID, membrane_orthotropic, ENERGY_ORTHOTROPIC_BRANCHES,
+                                               energy_orthotropic_branch_names, 11, energy_fields_orthotropic),
     [CIPC_ENERGY_HINGE_BENDING] =
         ENTRY(hinge_bending, cipc_hinge_bending, 4, RIGID, hinge_bending, ENERGY_HINGE_BRANCHES, energy_hinge_branch_names, 2, energy_fields_hinge_bending),
     [CIPC_ENERGY_ROD_STRETCHING] = ENTRY(rod_stretching, cipc_rod_stretching, 2, RIGID, rod_stretching, ENERGY_ROD_STRETCHING_BRANCHES,

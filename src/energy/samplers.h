@@ -17,6 +17,9 @@ void energy_draw_placement(gsl_rng *rng, double reach, int nodes, const double *
 /* A rest triangle in the plane, longest side about `size`, height over base in [flattest, 1.5]. */
 void energy_draw_triangle(gsl_rng *rng, double size, double flattest, double rest[9]);
 
+/* Positions of a rest triangle under the stretches sigma along two random directions of its plane, placed in space (samplers_element.c). */
+void energy_draw_deformed_triangle(gsl_rng *rng, const double inverse_rest[3], const double sigma[2], double x[9]);
+
 /* The registry's columns sample, branch and branch_names for one energy. */
 #define ENERGY_SAMPLER(name)                                                                                                               \
     void energy_sample_##name(gsl_rng *rng, int branch, double *x, void *params);                                                          \
@@ -26,10 +29,12 @@ enum {
     ENERGY_NODAL_BRANCHES = 2,
     ENERGY_GRAVITY_BRANCHES = 1,
     ENERGY_MEMBRANE_BRANCHES = 5,
-    ENERGY_STRAIN_LIMIT_BRANCHES = 12,
+    ENERGY_STRAIN_LIMIT_BRANCHES = 7,
     ENERGY_HINGE_BRANCHES = 14
 };
-enum { ENERGY_ROD_STRETCHING_BRANCHES = 4, ENERGY_ROD_BENDING_BRANCHES = 9, ENERGY_STITCH_BRANCHES = 3, ENERGY_VOLUME_BRANCHES = 5, ENERGY_ORTHOTROPIC_BRANCHES = 5 };
+enum { ENERGY_ROD_STRETCHING_BRANCHES = 4, ENERGY_ROD_BENDING_BRANCHES = 9, ENERGY_STITCH_BRANCHES = 3 };
+enum { ENERGY_STRAIN_LIMIT_LOWER_BRANCHES = 6, ENERGY_ORTHOTROPIC_BRANCHES = 14 };
+enum { ENERGY_VOLUME_BRANCHES = 8 };
 enum {
     ENERGY_CONTACT_BRANCHES = 6,
     ENERGY_POINT_EDGE_BRANCHES = 7,
@@ -42,12 +47,13 @@ extern const char *const energy_nodal_branch_names[ENERGY_NODAL_BRANCHES];
 extern const char *const energy_gravity_branch_names[ENERGY_GRAVITY_BRANCHES];
 extern const char *const energy_membrane_branch_names[ENERGY_MEMBRANE_BRANCHES];
 extern const char *const energy_strain_limit_branch_names[ENERGY_STRAIN_LIMIT_BRANCHES];
+extern const char *const energy_strain_limit_lower_branch_names[ENERGY_STRAIN_LIMIT_LOWER_BRANCHES];
+extern const char *const energy_orthotropic_branch_names[ENERGY_ORTHOTROPIC_BRANCHES];
 extern const char *const energy_hinge_branch_names[ENERGY_HINGE_BRANCHES];
 extern const char *const energy_rod_stretching_branch_names[ENERGY_ROD_STRETCHING_BRANCHES];
 extern const char *const energy_rod_bending_branch_names[ENERGY_ROD_BENDING_BRANCHES];
 extern const char *const energy_stitch_branch_names[ENERGY_STITCH_BRANCHES];
 extern const char *const energy_volume_branch_names[ENERGY_VOLUME_BRANCHES];
-extern const char *const energy_orthotropic_branch_names[ENERGY_ORTHOTROPIC_BRANCHES];
 extern const char *const energy_contact_branch_names[ENERGY_CONTACT_BRANCHES];
 extern const char *const energy_point_edge_branch_names[ENERGY_POINT_EDGE_BRANCHES];
 extern const char *const energy_point_triangle_branch_names[ENERGY_POINT_TRIANGLE_BRANCHES];
@@ -59,12 +65,13 @@ ENERGY_SAMPLER(gravity);
 ENERGY_SAMPLER(dirichlet_penalty);
 ENERGY_SAMPLER(membrane);
 ENERGY_SAMPLER(strain_limit);
+ENERGY_SAMPLER(strain_limit_lower);
+ENERGY_SAMPLER(membrane_orthotropic);
 ENERGY_SAMPLER(hinge_bending);
 ENERGY_SAMPLER(rod_stretching);
 ENERGY_SAMPLER(rod_bending);
 ENERGY_SAMPLER(stitch);
 ENERGY_SAMPLER(volume);
-ENERGY_SAMPLER(orthotropic);
 ENERGY_SAMPLER(barrier_point_point);
 ENERGY_SAMPLER(barrier_point_edge);
 ENERGY_SAMPLER(barrier_point_triangle);

@@ -66,7 +66,7 @@ int energy_branch_dirichlet_penalty(const double *x, const void *params)
 /* --- triangles --- */
 
 /* Positions with F = sigma_1 u_1 v_1^T + sigma_2 u_2 v_2^T for a random rotation of the plane (v) and of space (u). */
-static void draw_deformed_triangle(gsl_rng *rng, const double inverse_rest[3], const double sigma[2], double x[9])
+void energy_draw_deformed_triangle(gsl_rng *rng, const double inverse_rest[3], const double sigma[2], double x[9])
 {
     double angle = energy_draw_uniform(rng, -3.15, 3.15), c = cos(angle), s = sin(angle);
     double base[2] = {1 / inverse_rest[0], 0}; /* columns of B */
@@ -111,7 +111,7 @@ void energy_sample_membrane(gsl_rng *rng, int branch, double *x, void *params)
            poisson = energy_draw_uniform(rng, 0, 0.49);
     (void)cipc_membrane_init(params, rest, thickness, young, poisson);
     draw_stretches(rng, branch, sigma);
-    draw_deformed_triangle(rng, ((const cipc_membrane *)params)->inverse_rest, sigma, x);
+    energy_draw_deformed_triangle(rng, ((const cipc_membrane *)params)->inverse_rest, sigma, x);
 }
 
 int energy_branch_membrane(const double *x, const void *params)
@@ -127,41 +127,13 @@ int energy_branch_membrane(const double *x, const void *params)
 /* --- strain limit; t = (sigma - shat)/(s - shat) runs from 0 (threshold) to 1 (limit) --- */
 
 const char *const energy_strain_limit_branch_names[ENERGY_STRAIN_LIMIT_BRANCHES] = {
-    "inactive",      "threshold",           "one_active",           "one_active_collapsed", "both_active",         "near_equal",       "near_limit",
-    "lower_inactive", "lower_one_active", "lower_both_active", "lower_near_equal", "lower_near_limit",
+    "inactive", "threshold", "one_active", "one_active_collapsed", "both_active", "near_equal", "near_limit",
 };
-enum { INACTIVE = 0, THRESHOLD, ONE_ACTIVE, COLLAPSED, BOTH_ACTIVE, NEAR_EQUAL, NEAR_LIMIT, LOWER_INACTIVE, LOWER_ONE, LOWER_BOTH, LOWER_EQUAL, LOWER_LIMIT };
+enum { INACTIVE = 0, THRESHOLD, ONE_ACTIVE, COLLAPSED, BOTH_ACTIVE, NEAR_EQUAL, NEAR_LIMIT };
 static const double THRESHOLD_T = 1e-5, EQUAL_STRETCHES = 1e-7, LIMIT_T = 1e-5;
-
-static void sample_lower_limit(gsl_rng *rng, int branch, double *x, void *params)
-{
-    double rest[9], limit = 1 - energy_draw_log(rng, 1e-3, 0.5), activation = limit + (1 - limit) * energy_draw_uniform(rng, 0.2, 1), width = activation - limit;
-    energy_draw_triangle(rng, energy_draw_log(rng, 1e-3, 1), 0.05, rest);
-    double thickness = energy_draw_log(rng, 1e-4, 1e-2), stiffness = energy_draw_log(rng, 1e2, 1e5);
-    (void)cipc_strain_limit_init(params, rest, thickness, limit, activation, stiffness);
-    double t = energy_draw_uniform(rng, 0.05, 0.95), sigma[2] = {activation * energy_draw_uniform(rng, 1.01, 1.5), activation - t * width};
-    if (branch == LOWER_INACTIVE) sigma[1] = energy_draw_uniform(rng, 1.001 * activation, sigma[0]);
-    if (branch == LOWER_BOTH) sigma[0] = activation - t * width * energy_draw_uniform(rng, 0.01, 0.999);
-    if (branch == LOWER_EQUAL) sigma[0] = sigma[1] + energy_draw_log(rng, 1e-17, 0.9 * EQUAL_STRETCHES) * width;
-    if (branch == LOWER_LIMIT) sigma[1] = limit + width * energy_draw_log(rng, 1e-6, 0.9 * LIMIT_T);
-    draw_deformed_triangle(rng, ((const cipc_strain_limit *)params)->inverse_rest, sigma, x);
-}
-
-static int branch_of_lower_limit(const cipc_strain_limit *p, const double sigma[2])
-{
-    double width = p->activation - p->limit;
-    if (sigma[1] >= p->activation) return LOWER_INACTIVE;
-    if (sigma[1] - p->limit <= LIMIT_T * width) return LOWER_LIMIT;
-    if (sigma[0] >= p->activation) return LOWER_ONE;
-    return sigma[0] - sigma[1] <= EQUAL_STRETCHES * width ? LOWER_EQUAL : LOWER_BOTH;
-}
 
 void energy_sample_strain_limit(gsl_rng *rng, int branch, double *x, void *params)
 {
-    if (branch >= LOWER_INACTIVE) {
-        sample_lower_limit(rng, branch, x, params);
-        return;
-    }
     double rest[9], limit = 1 + energy_draw_log(rng, 1e-3, 0.3);
     double activation = energy_draw_index(rng, 2) ? 1 : 1 + energy_draw_uniform(rng, 0.1, 0.8) * (limit - 1), width = limit - activation;
     energy_draw_triangle(rng, energy_draw_log(rng, 1e-3, 1), 0.05, rest);
@@ -178,7 +150,7 @@ void energy_sample_strain_limit(gsl_rng *rng, int branch, double *x, void *param
         sigma[0] = limit - width * energy_draw_log(rng, 1e-6, 0.9 * LIMIT_T);
         if (energy_draw_index(rng, 2)) sigma[1] = activation + width * energy_draw_uniform(rng, 0, 0.99);
     }
-    draw_deformed_triangle(rng, ((const cipc_strain_limit *)params)->inverse_rest, sigma, x);
+    energy_draw_deformed_triangle(rng, ((const cipc_strain_limit *)params)->inverse_rest, sigma, x);
 }
 
 int energy_branch_strain_limit(const double *x, const void *params)
@@ -186,7 +158,6 @@ int energy_branch_strain_limit(const double *x, const void *params)
     const cipc_strain_limit *p = params;
     double sigma[2], width = p->limit - p->activation;
     cipc_principal_stretches(x, p->inverse_rest, sigma);
-    if (p->limit < p->activation) return branch_of_lower_limit(p, sigma);
     if (sigma[0] <= p->activation) return INACTIVE;
     if (p->limit - sigma[0] <= LIMIT_T * width) return NEAR_LIMIT;
     if (sigma[0] - p->activation <= THRESHOLD_T * width) return THRESHOLD;

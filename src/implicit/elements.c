@@ -33,20 +33,26 @@ static bool add_membrane(cipc_stepper *s, const int *nodes, const double *rest, 
     if (m->membrane == CIPC_MEMBRANE_NONE) return true;
     if (m->membrane == CIPC_MEMBRANE_ORTHOTROPIC) {
         const cipc_orthotropic_material *o = &m->orthotropic;
-        return cipc_orthotropic_init(next_element(&s->groups[CIPC_GROUP_ORTHOTROPIC], nodes), rest, m->thickness, o->warp, o->weft, o->moduli, o->limits);
+        return cipc_orthotropic_init(next_element(&s->groups[CIPC_GROUP_ORTHOTROPIC], nodes), rest, m->thickness, o->warp,
+                                     v3_norm2(o->weft) > 0 ? o->weft : NULL, o->moduli, o->limits);
     }
     cipc_element_group *g = &s->groups[m->membrane == CIPC_MEMBRANE_STVK ? CIPC_GROUP_STVK : CIPC_GROUP_NEO_HOOKEAN];
     return cipc_membrane_init(next_element(g, nodes), rest, m->thickness, m->membrane_young, m->membrane_poisson);
 }
 
-/* An upper limit has limit > activation, a lower one limit < activation. */
-static bool add_strain_limit(cipc_stepper *s, int t, const double *rest, const cipc_material *m, double limit, double activation)
+static bool add_strain_limits(cipc_stepper *s, int t, const double *rest, const cipc_material *m)
 {
-    cipc_element_group *g = &s->groups[CIPC_GROUP_STRAIN_LIMIT];
-    if (limit == 0) return true;
-    g->triangles[g->count] = t;
-    s->max_strain_stiffness = fmax(s->max_strain_stiffness, m->strain_stiffness);
-    return cipc_strain_limit_init(next_element(g, s->model->triangles[t]), rest, m->thickness, limit, activation, m->strain_stiffness);
+    cipc_element_group *upper = &s->groups[CIPC_GROUP_STRAIN_LIMIT], *lower = &s->groups[CIPC_GROUP_STRAIN_LIMIT_LOWER];
+    const int *nodes = s->model->triangles[t];
+    bool good = true;
+    if (m->strain_limit > 0) {
+        upper->triangles[upper->count] = t;
+        good = cipc_strain_limit_init(next_element(upper, nodes), rest, m->thickness, m->strain_limit, m->strain_activation, m->strain_stiffness);
+    }
+    if (m->strain_lower_limit > 0)
+        good = good && cipc_strain_limit_lower_init(next_element(lower, nodes), rest, m->thickness, m->strain_lower_limit, m->strain_lower_activation, m->strain_stiffness);
+    if (m->strain_limit > 0 || m->strain_lower_limit > 0) s->max_strain_stiffness = fmax(s->max_strain_stiffness, m->strain_stiffness);
+    return good;
 }
 
 static cipc_status add_triangle(cipc_stepper *s, int t, cipc_error *error)
@@ -59,9 +65,7 @@ static cipc_status add_triangle(cipc_stepper *s, int t, cipc_error *error)
     gather_rest(m, m->triangles[t], 3, rest);
     if (!add_membrane(s, m->triangles[t], rest, material))
         return cipc_fail(error, CIPC_E_BAD_MESH, body->name, "triangle %d has no area at rest, or warp or weft goes across it", t);
-    if (add_strain_limit(s, t, rest, material, material->strain_limit, material->strain_activation) &&
-        add_strain_limit(s, t, rest, material, material->strain_lower_limit, material->strain_lower_activation))
-        return CIPC_OK;
+    if (add_strain_limits(s, t, rest, material)) return CIPC_OK;
     return cipc_fail(error, CIPC_E_BAD_MESH, body->name, "triangle %d has no area at rest", t);
 }
 
@@ -129,12 +133,13 @@ static cipc_status allocate_groups(cipc_stepper *s, cipc_error *error)
         [CIPC_GROUP_COROTATIONAL] = {CIPC_ENERGY_VOLUME_COROTATIONAL, m->tetrahedron_count},
         [CIPC_GROUP_VOLUME_NEO_HOOKEAN] = {CIPC_ENERGY_VOLUME_NEO_HOOKEAN, m->tetrahedron_count},
         [CIPC_GROUP_STITCH] = {CIPC_ENERGY_STITCH, m->stitch_count},
-        [CIPC_GROUP_STRAIN_LIMIT] = {CIPC_ENERGY_STRAIN_LIMIT, 2 * m->triangle_count},
+        [CIPC_GROUP_STRAIN_LIMIT] = {CIPC_ENERGY_STRAIN_LIMIT, m->triangle_count},
+        [CIPC_GROUP_STRAIN_LIMIT_LOWER] = {CIPC_ENERGY_STRAIN_LIMIT_LOWER, m->triangle_count},
     };
     cipc_status status = CIPC_OK;
     for (int g = 0; g < CIPC_GROUP_COUNT && !status; g++) status = allocate_group(&s->groups[g], groups[g].id, groups[g].most, error);
     if (status) return status;
-    s->groups[CIPC_GROUP_STRAIN_LIMIT].triangles = cipc_alloc(2 * (size_t)m->triangle_count, sizeof(int));
+    s->groups[CIPC_GROUP_STRAIN_LIMIT].triangles = cipc_alloc((size_t)m->triangle_count, sizeof(int));
     s->near_limit = cipc_alloc(2 * (size_t)m->triangle_count, sizeof(bool));
     if (!s->groups[CIPC_GROUP_STRAIN_LIMIT].triangles || !s->near_limit) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "elements", "no memory");
     return CIPC_OK;

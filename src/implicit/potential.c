@@ -35,7 +35,7 @@ void cipc_term_lists(const cipc_stepper *s, const cipc_contact_set *contacts, ci
     for (int g = 0; g < CIPC_GROUP_COUNT; g++) {
         const cipc_element_group *group = &s->groups[g];
         /* The strain limit is a constraint on the iterate itself, so it sees x, not the blend; the factor beta gives it the same force scale. */
-        bool limit = g == CIPC_GROUP_STRAIN_LIMIT;
+        bool limit = cipc_is_strain_limit(g);
         cipc_term_list list = {.energy = group->energy, .count = group->count, .params = group->params, .params_stride = group->energy->params_size,
                                .nodes = (const char *)group->nodes, .nodes_stride = (size_t)group->energy->nodes * sizeof(int),
                                .scale = limit ? elastic * beta * s->strain_factor : elastic, .chain = limit ? 1 : beta, .blended = !limit};
@@ -176,7 +176,7 @@ cipc_status cipc_potential_value(cipc_stepper *s, const double *x, const cipc_co
     terms->stretching = value[CIPC_GROUP_ROD_STRETCHING];
     terms->volume = value[CIPC_GROUP_COROTATIONAL] + value[CIPC_GROUP_VOLUME_NEO_HOOKEAN];
     terms->stitches = value[CIPC_GROUP_STITCH];
-    terms->strain_limit = value[CIPC_GROUP_STRAIN_LIMIT];
+    terms->strain_limit = value[CIPC_GROUP_STRAIN_LIMIT] + value[CIPC_GROUP_STRAIN_LIMIT_LOWER];
     terms->barrier = value[CIPC_LIST_CONTACT];
     terms->friction = value[CIPC_LIST_FRICTION];
     terms->total = terms->inertia + terms->membrane + terms->bending + terms->strain_limit + terms->barrier + terms->friction + terms->penalty +
@@ -195,7 +195,7 @@ static double cancelling_size(int list, const void *params, const double *y)
     }
     if (list == CIPC_GROUP_ORTHOTROPIC) {
         const cipc_orthotropic *m = params;
-        return m->volume * (m->moduli[0] + fabs(m->moduli[1]) + m->moduli[2] + m->moduli[3]);
+        return m->volume * (m->a11 + fabs(m->a12) + m->a22 + m->g12);
     }
     if (list == CIPC_GROUP_ROD_BENDING) {
         const cipc_rod_bending *rod = params;

@@ -272,7 +272,8 @@ static cipc_status take_step(cipc_stepper *s, cipc_state *state, cipc_error *err
     s->strain_factor = state->strain_stiffness_factor;
     s->step = state->step;
     predict(s, state);
-    bool split = s->options.strain_coupling == CIPC_STRAIN_SPLIT && s->groups[CIPC_GROUP_STRAIN_LIMIT].count > 0;
+    bool split = s->options.strain_coupling == CIPC_STRAIN_SPLIT &&
+                 s->groups[CIPC_GROUP_STRAIN_LIMIT].count + s->groups[CIPC_GROUP_STRAIN_LIMIT_LOWER].count > 0;
     cipc_status status = split ? solve_split(s, state->time, error) : solve(s, state->time, error);
     s->stage = CIPC_STAGE_WHOLE;
     return status;

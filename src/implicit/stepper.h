@@ -13,14 +13,16 @@ typedef struct cipc_element_group {
     int count;
     int *nodes;     /* count * energy->nodes */
     void *params;   /* count * energy->params_size */
-    int *triangles; /* strain limit only: which triangle each element is */
+    int *triangles; /* upper strain limit only: which triangle each element is */
 } cipc_element_group;
 
 enum {
     CIPC_GROUP_NEO_HOOKEAN = 0, CIPC_GROUP_STVK, CIPC_GROUP_ORTHOTROPIC, CIPC_GROUP_HINGE,
     CIPC_GROUP_ROD_STRETCHING, CIPC_GROUP_ROD_BENDING, CIPC_GROUP_COROTATIONAL, CIPC_GROUP_VOLUME_NEO_HOOKEAN, CIPC_GROUP_STITCH,
-    CIPC_GROUP_STRAIN_LIMIT, CIPC_GROUP_COUNT
+    CIPC_GROUP_STRAIN_LIMIT, CIPC_GROUP_STRAIN_LIMIT_LOWER, CIPC_GROUP_COUNT
 };
+
+static inline bool cipc_is_strain_limit(int group) { return group == CIPC_GROUP_STRAIN_LIMIT || group == CIPC_GROUP_STRAIN_LIMIT_LOWER; }
 
 /* Lagged friction: one entry a contact that has any (SPEC D.6). */
 typedef struct cipc_friction_set {
@@ -57,7 +59,7 @@ struct cipc_stepper {
     double min_strain_stiffness, max_strain_stiffness;
 
     cipc_element_group groups[CIPC_GROUP_COUNT];
-    bool *near_limit;             /* strain limit elements close to their limit at the previous iterate */
+    bool *near_limit;             /* elements of the two strain limits, upper then lower, close to their limit at the previous iterate */
 
     /* the present step */
     double *x_start, *x_hat, *x, *trial, *blend; /* 3 * node_count each: x^n, xhat, iterate, trial, beta x + gamma x^n */

@@ -16,23 +16,36 @@ static const double fraction_to_limit = 0.9;
 static const double near_limit_fraction = 1e-4, stiffness_cap = 1e5;
 
 /* The groups that have limits, and whether an element of theirs at y keeps its own by the margin. */
-static bool keeps_stretch(const void *params, const double *y)
+static bool keeps_upper(const void *params, const double *y)
 {
+    const cipc_strain_limit *p = params;
     double sigma[2];
-    cipc_principal_stretches(y, ((const cipc_strain_limit *)params)->inverse_rest, sigma);
-    return cipc_strain_limit_feasible(sigma, params, stretch_margin);
+    cipc_principal_stretches(y, p->inverse_rest, sigma);
+    return sigma[0] < p->limit * (1 - stretch_margin);
 }
 
-/* A Green strain has an error of some u of the squared stretch, 1 + 2 E, not of itself. */
+static bool keeps_lower(const void *params, const double *y)
+{
+    const cipc_strain_limit *p = params;
+    double sigma[2];
+    cipc_principal_stretches(y, p->inverse_rest, sigma);
+    return sigma[1] > p->limit * (1 + stretch_margin);
+}
+
+/* A Green strain has an error of some u of what it is a difference of, 1 + 2 |E|, not of itself. */
+static bool keeps_strain(double strain, double limit) { return fabs(strain) < limit - stretch_margin * (1 + 2 * fabs(strain)); }
+
 static bool keeps_strains(const void *params, const double *y)
 {
     const cipc_orthotropic *p = params;
-    double strain[3], margin = stretch_margin;
-    cipc_orthotropic_strains(y, p, strain);
-    for (int k = 0; k < 3; k++) margin += 2 * stretch_margin * fabs(strain[k]);
-    for (int k = 0; k < 3; k++)
-        if (!(fabs(strain[k]) < p->limits[k] - margin)) return false;
-    return true;
+    double f1[3], f2[3];
+    for (int k = 0; k < 3; k++) {
+        double a = y[3 + k] - y[k], b = y[6 + k] - y[k];
+        f1[k] = p->warp[0] * a + p->warp[1] * b;
+        f2[k] = p->weft[0] * a + p->weft[1] * b;
+    }
+    return keeps_strain(0.5 * (v3_norm2(f1) - 1), p->limit11) && keeps_strain(0.5 * (v3_norm2(f2) - 1), p->limit22) &&
+           keeps_strain(0.5 * (v3_dot(f1, f2) - p->rest_cosine), p->limit12);
 }
 
 /* Volume against the product of the edges' lengths: its sign is then that of the exact volume. */
@@ -50,7 +63,7 @@ typedef struct limited_group {
     bool (*keeps)(const void *params, const double *y);
 } limited_group;
 static const limited_group limited[] = {
-    {CIPC_GROUP_STRAIN_LIMIT, keeps_stretch}, {CIPC_GROUP_ORTHOTROPIC, keeps_strains}, {CIPC_GROUP_COROTATIONAL, keeps_volume}, {CIPC_GROUP_VOLUME_NEO_HOOKEAN, keeps_volume}};
+    {CIPC_GROUP_STRAIN_LIMIT, keeps_upper}, {CIPC_GROUP_STRAIN_LIMIT_LOWER, keeps_lower}, {CIPC_GROUP_ORTHOTROPIC, keeps_strains}, {CIPC_GROUP_COROTATIONAL, keeps_volume}, {CIPC_GROUP_VOLUME_NEO_HOOKEAN, keeps_volume}};
 enum { LIMITED = sizeof limited / sizeof *limited };
 
 /* Does element i at x + alpha p keep its limit? The predictor of a split step knows no strain limits. */
@@ -68,7 +81,7 @@ static bool keeps_limit(const cipc_stepper *s, const limited_group *l, int i, co
 
 static int limited_count(const cipc_stepper *s, const limited_group *l)
 {
-    return s->stage == CIPC_STAGE_PREDICT && l->group == CIPC_GROUP_STRAIN_LIMIT ? 0 : s->groups[l->group].count;
+    return s->stage == CIPC_STAGE_PREDICT && cipc_is_strain_limit(l->group) ? 0 : s->groups[l->group].count;
 }
 
 bool cipc_strain_feasible(const cipc_stepper *s, const double *x)
@@ -122,25 +135,26 @@ double cipc_strain_step(cipc_stepper *s, const double *x, const double *p)
 }
 
 /* What is left of (s - shat), as a fraction, at the stretch nearest to the limit. */
-static double slack(const cipc_stepper *s, int i)
+static double slack(const cipc_stepper *s, int group, int i)
 {
     double y[9], sigma[2];
-    const cipc_element_group *g = &s->groups[CIPC_GROUP_STRAIN_LIMIT];
+    const cipc_element_group *g = &s->groups[group];
     const cipc_strain_limit *params = (const cipc_strain_limit *)g->params + i;
     for (int k = 0; k < 3; k++) v3_copy(y + 3 * k, s->x + 3 * g->nodes[3 * i + k]);
     cipc_principal_stretches(y, params->inverse_rest, sigma);
-    return (params->limit - sigma[params->limit < params->activation]) / (params->limit - params->activation);
+    return (params->limit - sigma[group == CIPC_GROUP_STRAIN_LIMIT_LOWER]) / (params->limit - params->activation);
 }
 
 bool cipc_strain_adapt(cipc_stepper *s)
 {
     bool twice = false;
     if (s->stage == CIPC_STAGE_PREDICT) return false;
-    for (int i = 0; i < s->groups[CIPC_GROUP_STRAIN_LIMIT].count; i++) {
-        bool near = slack(s, i) < near_limit_fraction;
-        twice = twice || (near && s->near_limit[i]);
-        s->near_limit[i] = near;
-    }
+    for (int group = CIPC_GROUP_STRAIN_LIMIT, slot = 0; group <= CIPC_GROUP_STRAIN_LIMIT_LOWER; group++)
+        for (int i = 0; i < s->groups[group].count; i++, slot++) {
+            bool near = slack(s, group, i) < near_limit_fraction;
+            twice = twice || (near && s->near_limit[slot]);
+            s->near_limit[slot] = near;
+        }
     if (!twice || s->max_strain_stiffness * s->strain_factor >= stiffness_cap) return false;
     s->strain_factor = fmin(2 * s->strain_factor, stiffness_cap / s->max_strain_stiffness);
     return true;

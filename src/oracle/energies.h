@@ -11,13 +11,14 @@ mpfr_ptr oracle_dirichlet_penalty(oracle_reals *s, const mpfr_t *x, const double
 mpfr_ptr oracle_membrane_neo_hookean(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_membrane_stvk(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_strain_limit(oracle_reals *s, const mpfr_t *x, const double *fields);
+mpfr_ptr oracle_strain_limit_lower(oracle_reals *s, const mpfr_t *x, const double *fields);
+mpfr_ptr oracle_membrane_orthotropic(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_hinge_bending(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_rod_stretching(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_rod_bending(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_stitch(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_volume_corotational(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_volume_neo_hookean(oracle_reals *s, const mpfr_t *x, const double *fields);
-mpfr_ptr oracle_membrane_orthotropic(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_barrier_point_point(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_barrier_point_edge(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_barrier_point_triangle(oracle_reals *s, const mpfr_t *x, const double *fields);

@@ -44,14 +44,13 @@ mpfr_ptr oracle_membrane_stvk(oracle_reals *s, const mpfr_t *x, const double *f)
     return oracle_scaled(s, 0.25 * f[4], sum);
 }
 
-/* b(sigma) = -y^2 ln(1 + y), y = (shat - sigma)/(s - shat), for sigma past shat; NULL at or beyond the limit s. A lower limit, s < shat, is the mirror image. */
+/* b(sigma) = -y^2 ln(1 + y), y = (shat - sigma)/(s - shat), for sigma > shat; NULL at or beyond the limit s. */
 static mpfr_ptr stretch_barrier(oracle_reals *s, mpfr_srcptr sigma, double limit, double activation)
 {
     mpfr_ptr over = oracle_sub(s, sigma, oracle_number(s, activation)), left = oracle_sub(s, oracle_number(s, limit), sigma);
     mpfr_ptr range = oracle_sub(s, oracle_number(s, limit), oracle_number(s, activation));
-    int side = mpfr_sgn(range);
-    if (side * mpfr_sgn(over) <= 0) return oracle_number(s, 0);
-    if (side * mpfr_sgn(left) <= 0) return NULL;
+    if (mpfr_sgn(over) <= 0) return oracle_number(s, 0);
+    if (mpfr_sgn(left) <= 0) return NULL;
     mpfr_ptr y = oracle_div(s, over, range);
     return oracle_scaled(s, -1, oracle_mul(s, oracle_mul(s, y, y), oracle_log(s, oracle_div(s, left, range))));
 }

@@ -16,14 +16,14 @@ static const char *const mass_acceleration[] = {"mass", "acceleration[0]", "acce
 static const char *const penalty[] = {"stiffness", "mass", "target[0]", "target[1]", "target[2]"};
 static const char *const membrane[] = {"inverse_rest[0]", "inverse_rest[1]", "inverse_rest[2]", "area", "volume", "mu", "lambda"};
 static const char *const strain[] = {"inverse_rest[0]", "inverse_rest[1]", "inverse_rest[2]", "volume", "limit", "activation", "stiffness"};
+static const char *const orthotropic[] = {"warp[0]", "warp[1]", "weft[0]", "weft[1]", "rest_cosine", "volume", "a11", "a12", "a22", "g12", "limit11", "limit22",
+                                          "limit12"};
 static const char *const hinge[] = {"stiffness", "rest_angle"};
 static const char *const stretching[] = {"stiffness", "length"};
 static const char *const bending[] = {"stiffness", "rest_curvature"};
 static const char *const stitch[] = {"stiffness", "ratio"};
-static const char *const volume[] = {"inverse_rest[0]", "inverse_rest[1]", "inverse_rest[2]", "inverse_rest[3]", "inverse_rest[4]", "inverse_rest[5]", "inverse_rest[6]",
-                                     "inverse_rest[7]", "inverse_rest[8]", "volume",          "mu",              "lambda"};
-static const char *const orthotropic[] = {"warp[0]",   "warp[1]",   "weft[0]",   "weft[1]",   "rest_cosine", "volume",   "moduli[0]",
-                                          "moduli[1]", "moduli[2]", "moduli[3]", "limits[0]", "limits[1]",   "limits[2]"};
+static const char *const volume[] = {"inverse_rest[0]", "inverse_rest[1]", "inverse_rest[2]", "inverse_rest[3]", "inverse_rest[4]", "inverse_rest[5]",
+                                     "inverse_rest[6]", "inverse_rest[7]", "inverse_rest[8]", "volume", "mu", "lambda"};
 static const char *const barrier[] = {"stiffness", "weight", "offset", "dhat", "mollifier_eps", "feature"};
 static const char *const friction[] = {"coefficient", "eps",       "weights[0]", "weights[1]", "weights[2]", "weights[3]", "basis[0]", "basis[1]",
                                        "basis[2]",    "basis[3]",  "basis[4]",   "basis[5]",   "start[0]",   "start[1]",   "start[2]", "start[3]",
@@ -36,8 +36,9 @@ static const entry table[] = {
     {{"dirichlet_penalty", 1, 5, penalty}, oracle_dirichlet_penalty},
     {{"membrane_neo_hookean", 3, 7, membrane}, oracle_membrane_neo_hookean},
     {{"membrane_stvk", 3, 7, membrane}, oracle_membrane_stvk},
-    {{"membrane_orthotropic", 3, 13, orthotropic}, oracle_membrane_orthotropic},
     {{"strain_limit", 3, 7, strain}, oracle_strain_limit},
+    {{"strain_limit_lower", 3, 7, strain}, oracle_strain_limit_lower},
+    {{"membrane_orthotropic", 3, 13, orthotropic}, oracle_membrane_orthotropic},
     {{"hinge_bending", 4, 2, hinge}, oracle_hinge_bending},
     {{"rod_stretching", 2, 2, stretching}, oracle_rod_stretching},
     {{"rod_bending", 3, 2, bending}, oracle_rod_bending},

@@ -154,6 +154,49 @@ static void membrane_hessian_scaled(const double *x, const void *params, double 
     for (int i = 0; i < 81; i++) H[i] *= SCALED;
 }
 
+/* The mirrored barrier with the slope of the upper one: it pulls a compressed triangle in. */
+static void strain_limit_lower_gradient_of_flipped_sign(const double *x, const void *params, double *g)
+{
+    cipc_strain_limit_lower_gradient(x, params, g);
+    for (int i = 0; i < 9; i++) g[i] = -g[i];
+}
+
+/* The rotation taken as constant: 2 mu (w_i.w_j) alone, as in a projected "warped stiffness". */
+static void corotational_hessian_without_turning(const double *x, const void *params, double *H)
+{
+    cipc_volume stiffer = *(const cipc_volume *)params;
+    const double *b = stiffer.inverse_rest;
+    stiffer.mu = 0;
+    cipc_volume_corotational_hessian(x, &stiffer, H);
+    double scale = 2 * stiffer.volume * ((const cipc_volume *)params)->mu;
+    for (int i = 0; i < 4; i++) {
+        for (int j = 0; j < 4; j++) {
+            double product = 0;
+            for (int a = 0; a < 3; a++) {
+                double wi = i > 0 ? b[3 * (i - 1) + a] : -(b[a] + b[3 + a] + b[6 + a]), wj = j > 0 ? b[3 * (j - 1) + a] : -(b[a] + b[3 + a] + b[6 + a]);
+                product += wi * wj;
+            }
+            for (int k = 0; k < 3; k++) H[(3 * i + k) * N + 3 * j + k] += scale * product;
+        }
+    }
+}
+
+/* ln J where (ln J)^2 / 2 has the slope ln J / J: the pressure of nu = 0. */
+static void volume_gradient_without_pressure(const double *x, const void *params, double *g)
+{
+    cipc_volume softer = *(const cipc_volume *)params;
+    softer.lambda = 0;
+    cipc_volume_neo_hookean_gradient(x, &softer, g);
+}
+
+/* eta(E11^2; L11) for eta(E11^2; L11^2): the square of the limit lost in print (SPEC C.3). */
+static double orthotropic_value_without_squares(const double *x, const void *params)
+{
+    cipc_orthotropic wrong = *(const cipc_orthotropic *)params;
+    wrong.limit11 = sqrt(wrong.limit11);
+    return cipc_membrane_orthotropic_value(x, &wrong);
+}
+
 static void inertia_hessian_not_a_number(const double *x, const void *params, double *H)
 {
     cipc_inertia_hessian(x, params, H);
@@ -175,6 +218,10 @@ static const wrong_energy table[] = {
     {"sign of the second wing", "hinge_bending", "Hessian[", "Hessian, error", .hessian = hinge_hessian_with_wrong_wing},
     {"misprinted strain limit", "strain_limit", "not finite", "not finite", .value = strain_limit_value_as_misprinted},
     {"one entry off by 1e-7", "membrane_stvk", "Hessian[7][2]", "Hessian, error", .hessian = stvk_hessian_with_one_entry_off},
+    {"compression pulled in", "strain_limit_lower", "differences give", "gradient, error", .gradient = strain_limit_lower_gradient_of_flipped_sign},
+    {"rotation held still", "volume_corotational", "Hessian[", "Hessian, error", .hessian = corotational_hessian_without_turning},
+    {"lost pressure", "volume_neo_hookean", "differences give", "gradient, error", .gradient = volume_gradient_without_pressure},
+    {"lost square of the limit", "membrane_orthotropic", "", "value, error", .value = orthotropic_value_without_squares},
     {"not a number", "inertia", "not finite", "not finite", .hessian = inertia_hessian_not_a_number},
     /* Wrong and consistent: only MPFR knows. */
     {"gravity, all of it off by 1e-9", "gravity", NULL, "value, error", .value = gravity_value_scaled, .gradient = gravity_gradient_scaled},

@@ -181,6 +181,62 @@ static void test_strain_limit_as_tabulated(void **state)
     }
 }
 
+/* The lower limit half way: s = 1/2, shat = 1, sigma = 3/4: t = 1/2. The upper one's mirror image. */
+static void test_lower_strain_limit(void **state)
+{
+    (void)state;
+    const double x[9] = {0, 0, 0, 0.75, 0, 0, 0, 2, 0}, fields[7] = {1, 0, 1, 1, 0.5, 1, 1};
+    answer a = ask_well("strain_limit_lower", x, fields);
+    same(a.value, (double)(LN2 / 4));
+    same(a.g[3], (double)(-2 * LN2 - 1));
+    same(a.H[3 * 9 + 3], (double)(8 * LN2 + 20));
+    const double equal[9] = {0, 0, 0, 0.75, 0, 0, 0, 0.75, 0};
+    a = ask_well("strain_limit_lower", equal, fields); /* where the stretches are not differentiable, their sum is */
+    same(a.value, (double)(LN2 / 2));
+    same(a.g[7], (double)(-2 * LN2 - 1));
+    same(a.H[7 * 9 + 7], (double)(8 * LN2 + 20));
+}
+
+/* E11 = 3/2 of 2, the other strains 0: eta = -Q ln(7/16). Then shear alone, by the rest angle. */
+static void test_orthotropic(void **state)
+{
+    (void)state;
+    const double x[9] = {0, 0, 0, 2, 0, 0, 0, 1, 0};
+    double fields[13] = {1, 0, 0, 1, 0, 1, 4, 2, 8, 1, 2, 1, 1};
+    answer a = ask_well("membrane_orthotropic", x, fields);
+    assert_true(fabs(a.value - (double)(-8 * logl(7 / 16.0L))) <= 4e-16 * a.value); /* Q = 4, q = 9/4 */
+    assert_true(fabs(a.g[3] - 192 / 7.0) <= 4e-15 * a.g[3]);                         /* a11 eta' E11 f1 = 4 16/7 3/2 2 */
+    same(a.g[7], 3);                                                                 /* a12 E11 */
+    fields[0] = 0.5; /* f1 a unit vector */
+    fields[4] = 0.25; /* E12 = -1/8 */
+    a = ask_well("membrane_orthotropic", x, fields);
+    assert_true(fabs(a.value - (double)(-logl(63 / 64.0L))) <= 4e-16 * a.value);
+}
+
+/* F = diag(2, 1, 1), V = 1, mu = 3, lambda = 5; and a half turn of it. */
+static void test_volumes(void **state)
+{
+    (void)state;
+    const double fields[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 3, 5}, x[12] = {0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0, 1}, turned[12] = {1, 1, 1, -1, 1, 1, 1, 0, 1, 1, 1, 2};
+    answer a = ask_well("volume_neo_hookean", x, fields);
+    same(a.value, (double)(4.5L - 3 * LN2 + 2.5L * LN2 * LN2));
+    same(a.g[3], (double)(3 * 2 + (5 * LN2 - 3) / 2));
+    same(a.g[7], (double)(5 * LN2));
+    a = ask_well("volume_corotational", x, fields);
+    same(a.value, 3 + 2.5);
+    same(a.g[3], 2 * 3 + 5);      /* 2 mu (sigma - 1) + lambda (J - 1) J / sigma */
+    same(a.g[7], 5 * 2);
+    same(a.H[3 * 12 + 3], 2 * 3 + 5);
+    same(a.H[4 * 12 + 4], 4); /* a shear: 2 mu (1 - 1/(2 + 1)); and with its partner */
+    same(a.H[4 * 12 + 6], 2 - 5);
+    same(ask_well("volume_corotational", turned, fields).value, 3 + 2.5);
+    same(ask_well("volume_neo_hookean", turned, fields).value, (double)(4.5L - 3 * LN2 + 2.5L * LN2 * LN2));
+    const double tripled[12] = {0, 0, 0, 3, 0, 0, 0, 3, 0, 0, 0, 3};
+    a = ask_well("volume_corotational", tripled, fields); /* three equal stretches: sqrt(3 tr C) is their sum */
+    same(a.value, 3 * 12 + 2.5 * 26 * 26);
+    same(a.H[4 * 12 + 4], 5);
+}
+
 /* A right angle, up and down. Stiffness 1, rest angle 0: theta^2 = pi^2/4; the tip's gradient is 2 theta / height. */
 static void test_hinge(void **state)
 {
@@ -245,7 +301,11 @@ static const named formulas[] = {
     {"membrane_neo_hookean", oracle_membrane_neo_hookean},
     {"membrane_stvk", oracle_membrane_stvk},
     {"strain_limit", oracle_strain_limit},
+    {"strain_limit_lower", oracle_strain_limit_lower},
+    {"membrane_orthotropic", oracle_membrane_orthotropic},
     {"hinge_bending", oracle_hinge_bending},
+    {"volume_corotational", oracle_volume_corotational},
+    {"volume_neo_hookean", oracle_volume_neo_hookean},
     {"barrier_point_point", oracle_barrier_point_point},
     {"barrier_point_edge", oracle_barrier_point_edge},
     {"barrier_point_triangle", oracle_barrier_point_triangle},
@@ -318,6 +378,15 @@ static void test_infeasible_is_refused(void **state)
     refused("strain_limit", stretched, limit);
     refused("membrane_neo_hookean", flat, membrane);
     refused("hinge_bending", collapsed, hinge);
+    const double squeezed[9] = {0, 0, 0, 0.5, 0, 0, 0, 1, 0}, lower[7] = {1, 0, 1, 1, 0.5, 1, 1}, cloth[13] = {1, 0, 0, 1, 0, 1, 1, 1, 1, 1, 0.625, 1, 1};
+    const double plane[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0}, mirrored[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, -1}, volume[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 3, 5};
+    refused("strain_limit_lower", squeezed, lower);
+    refused("strain_limit_lower", flat, lower);
+    refused("membrane_orthotropic", stretched, cloth); /* E11 = 5/8 */
+    for (int k = 0; k < 2; k++) {
+        refused(k ? "volume_corotational" : "volume_neo_hookean", plane, volume);
+        refused(k ? "volume_corotational" : "volume_neo_hookean", mirrored, volume);
+    }
     double f[3], Dhat = 1;
     assert_int_equal(cipc_oracle_scalar("barrier", 0, &Dhat, f), CIPC_INDETERMINATE);
     assert_int_equal(cipc_oracle_scalar("barrier", NAN, &Dhat, f), CIPC_INDETERMINATE);
@@ -379,6 +448,9 @@ int main(void)
         cmocka_unit_test(test_mollifier),
         cmocka_unit_test(test_membranes),
         cmocka_unit_test(test_strain_limit_as_tabulated),
+        cmocka_unit_test(test_lower_strain_limit),
+        cmocka_unit_test(test_orthotropic),
+        cmocka_unit_test(test_volumes),
         cmocka_unit_test(test_hinge),
         cmocka_unit_test(test_friction),
         cmocka_unit_test(test_twice_the_precision),
