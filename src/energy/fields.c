@@ -15,6 +15,10 @@ const cipc_energy_field energy_fields_membrane[5] = {MANY(cipc_membrane, inverse
 const cipc_energy_field energy_fields_strain_limit[5] = {MANY(cipc_strain_limit, inverse_rest, 3), ONE(cipc_strain_limit, volume), ONE(cipc_strain_limit, limit),
                                                  ONE(cipc_strain_limit, activation), ONE(cipc_strain_limit, stiffness)};
 const cipc_energy_field energy_fields_hinge_bending[2] = {ONE(cipc_hinge_bending, stiffness), ONE(cipc_hinge_bending, rest_angle)};
+const cipc_energy_field energy_fields_rod_stretching[2] = {ONE(cipc_rod_stretching, stiffness), ONE(cipc_rod_stretching, length)};
+const cipc_energy_field energy_fields_rod_bending[2] = {ONE(cipc_rod_bending, stiffness), ONE(cipc_rod_bending, rest_curvature)};
+const cipc_energy_field energy_fields_stitch[2] = {ONE(cipc_stitch, stiffness), ONE(cipc_stitch, ratio)};
+const cipc_energy_field energy_fields_damping[3] = {ONE(cipc_damping, factor), MANY(cipc_damping, start, 12), MANY(cipc_damping, stiffness, 78)};
 const cipc_energy_field energy_fields_barrier[6] = {ONE(cipc_contact_barrier, stiffness), ONE(cipc_contact_barrier, weight), ONE(cipc_contact_barrier, offset),
                                             ONE(cipc_contact_barrier, dhat), ONE(cipc_contact_barrier, mollifier_eps),
                                             {"feature", offsetof(cipc_contact_barrier, feature), 1, true}};

@@ -30,6 +30,12 @@ enum {
     ENERGY_HINGE_BRANCHES = 14
 };
 enum {
+    ENERGY_ROD_STRETCHING_BRANCHES = 4,
+    ENERGY_ROD_BENDING_BRANCHES = 10,
+    ENERGY_STITCH_BRANCHES = 4,
+    ENERGY_DAMPING_BRANCHES = 6
+};
+enum {
     ENERGY_CONTACT_BRANCHES = 6,
     ENERGY_POINT_EDGE_BRANCHES = 7,
     ENERGY_POINT_TRIANGLE_BRANCHES = 7,
@@ -42,6 +48,10 @@ extern const char *const energy_gravity_branch_names[ENERGY_GRAVITY_BRANCHES];
 extern const char *const energy_membrane_branch_names[ENERGY_MEMBRANE_BRANCHES];
 extern const char *const energy_strain_limit_branch_names[ENERGY_STRAIN_LIMIT_BRANCHES];
 extern const char *const energy_hinge_branch_names[ENERGY_HINGE_BRANCHES];
+extern const char *const energy_rod_stretching_branch_names[ENERGY_ROD_STRETCHING_BRANCHES];
+extern const char *const energy_rod_bending_branch_names[ENERGY_ROD_BENDING_BRANCHES];
+extern const char *const energy_stitch_branch_names[ENERGY_STITCH_BRANCHES];
+extern const char *const energy_damping_branch_names[ENERGY_DAMPING_BRANCHES];
 extern const char *const energy_contact_branch_names[ENERGY_CONTACT_BRANCHES];
 extern const char *const energy_point_edge_branch_names[ENERGY_POINT_EDGE_BRANCHES];
 extern const char *const energy_point_triangle_branch_names[ENERGY_POINT_TRIANGLE_BRANCHES];
@@ -54,6 +64,10 @@ ENERGY_SAMPLER(dirichlet_penalty);
 ENERGY_SAMPLER(membrane);
 ENERGY_SAMPLER(strain_limit);
 ENERGY_SAMPLER(hinge_bending);
+ENERGY_SAMPLER(rod_stretching);
+ENERGY_SAMPLER(rod_bending);
+ENERGY_SAMPLER(stitch);
+ENERGY_SAMPLER(damping);
 ENERGY_SAMPLER(barrier_point_point);
 ENERGY_SAMPLER(barrier_point_edge);
 ENERGY_SAMPLER(barrier_point_triangle);

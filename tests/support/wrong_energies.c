@@ -154,6 +154,43 @@ static void membrane_hessian_scaled(const double *x, const void *params, double 
     for (int i = 0; i < 81; i++) H[i] *= SCALED;
 }
 
+/* The spring along the segment alone, without the tension that holds it sideways. */
+static void rod_stretching_hessian_without_tension(const double *x, const void *params, double *H)
+{
+    const cipc_rod_stretching *p = params;
+    double e[3], sign[2] = {-1, 1};
+    v3_sub(e, x + 3, x);
+    for (int i = 0; i < 36; i++) H[i] = p->stiffness / p->length * sign[i / 18] * sign[i % 6 / 3] * e[i / 6 % 3] * e[i % 3] / v3_norm2(e);
+}
+
+/* |kb| instead of |kb| - kbar: right on straight rods, wrong on curved ones only. */
+static void rod_bending_gradient_without_rest_curvature(const double *x, const void *params, double *g)
+{
+    cipc_rod_bending wrong = *(const cipc_rod_bending *)params;
+    wrong.rest_curvature = 0;
+    cipc_rod_bending_gradient(x, &wrong, g);
+}
+
+/* r counted from the edge's other end. */
+static void stitch_gradient_from_the_other_end(const double *x, const void *params, double *g)
+{
+    cipc_stitch wrong = *(const cipc_stitch *)params;
+    wrong.ratio = 1 - wrong.ratio;
+    cipc_stitch_gradient(x, &wrong, g);
+}
+
+static double damping_value_scaled(const double *x, const void *params) { return SCALED * cipc_damping_value(x, params); }
+static void damping_gradient_scaled(const double *x, const void *params, double *g)
+{
+    cipc_damping_gradient(x, params, g);
+    for (int i = 0; i < N; i++) g[i] *= SCALED;
+}
+static void damping_hessian_scaled(const double *x, const void *params, double *H)
+{
+    cipc_damping_hessian(x, params, H);
+    for (int i = 0; i < N * N; i++) H[i] *= SCALED;
+}
+
 static void inertia_hessian_not_a_number(const double *x, const void *params, double *H)
 {
     cipc_inertia_hessian(x, params, H);
@@ -175,10 +212,14 @@ static const wrong_energy table[] = {
     {"sign of the second wing", "hinge_bending", "Hessian[", "Hessian, error", .hessian = hinge_hessian_with_wrong_wing},
     {"misprinted strain limit", "strain_limit", "not finite", "not finite", .value = strain_limit_value_as_misprinted},
     {"one entry off by 1e-7", "membrane_stvk", "Hessian[7][2]", "Hessian, error", .hessian = stvk_hessian_with_one_entry_off},
+    {"lost tension of a rod", "rod_stretching", "Hessian[", "Hessian, error", .hessian = rod_stretching_hessian_without_tension},
+    {"lost rest curvature", "rod_bending", "curved_rest", "gradient, error", .gradient = rod_bending_gradient_without_rest_curvature},
+    {"stitch from the other end", "stitch", "differences give", "gradient, error", .gradient = stitch_gradient_from_the_other_end},
     {"not a number", "inertia", "not finite", "not finite", .hessian = inertia_hessian_not_a_number},
     /* Wrong and consistent: only MPFR knows. */
     {"gravity, all of it off by 1e-9", "gravity", NULL, "value, error", .value = gravity_value_scaled, .gradient = gravity_gradient_scaled},
     {"membrane, all of it off by 1e-9", "membrane_neo_hookean", NULL, "value, error", .value = membrane_value_scaled, .gradient = membrane_gradient_scaled, .hessian = membrane_hessian_scaled},
+    {"damping, all of it off by 1e-9", "damping", NULL, "value, error", .value = damping_value_scaled, .gradient = damping_gradient_scaled, .hessian = damping_hessian_scaled},
 };
 /* clang-format on */
 

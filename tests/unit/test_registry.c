@@ -29,6 +29,10 @@ static const promise promises[CIPC_ENERGY_COUNT] = {
     [CIPC_ENERGY_MEMBRANE_STVK] = {"membrane_stvk", 3, sizeof(cipc_membrane), RIGID},
     [CIPC_ENERGY_STRAIN_LIMIT] = {"strain_limit", 3, sizeof(cipc_strain_limit), RIGID},
     [CIPC_ENERGY_HINGE_BENDING] = {"hinge_bending", 4, sizeof(cipc_hinge_bending), RIGID},
+    [CIPC_ENERGY_ROD_STRETCHING] = {"rod_stretching", 2, sizeof(cipc_rod_stretching), RIGID},
+    [CIPC_ENERGY_ROD_BENDING] = {"rod_bending", 3, sizeof(cipc_rod_bending), RIGID},
+    [CIPC_ENERGY_STITCH] = {"stitch", 3, sizeof(cipc_stitch), RIGID},
+    [CIPC_ENERGY_DAMPING] = {"damping", 4, sizeof(cipc_damping), 0},
     [CIPC_ENERGY_BARRIER_POINT_POINT] = {"barrier_point_point", 2, sizeof(cipc_contact_barrier), RIGID},
     [CIPC_ENERGY_BARRIER_POINT_EDGE] = {"barrier_point_edge", 3, sizeof(cipc_contact_barrier), RIGID},
     [CIPC_ENERGY_BARRIER_POINT_TRIANGLE] = {"barrier_point_triangle", 4, sizeof(cipc_contact_barrier), RIGID},
@@ -103,6 +107,10 @@ static void test_entries_call_their_functions(void **state)
     CHECK_THUNKS(membrane_stvk, cipc_membrane);
     CHECK_THUNKS(strain_limit, cipc_strain_limit);
     CHECK_THUNKS(hinge_bending, cipc_hinge_bending);
+    CHECK_THUNKS(rod_stretching, cipc_rod_stretching);
+    CHECK_THUNKS(rod_bending, cipc_rod_bending);
+    CHECK_THUNKS(stitch, cipc_stitch);
+    CHECK_THUNKS(damping, cipc_damping);
     CHECK_THUNKS(barrier_point_point, cipc_contact_barrier);
     CHECK_THUNKS(barrier_point_edge, cipc_contact_barrier);
     CHECK_THUNKS(barrier_point_triangle, cipc_contact_barrier);
