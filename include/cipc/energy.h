@@ -111,40 +111,6 @@ double cipc_hinge_bending_value(const double x[12], const cipc_hinge_bending *pa
 void cipc_hinge_bending_gradient(const double x[12], const cipc_hinge_bending *params, double g[12]);
 void cipc_hinge_bending_hessian(const double x[12], const cipc_hinge_bending *params, double H[144]);
 
-/* --- rods and stitches ------------------------------------------------------------------------------------------------------- */
-
-/* Rod stretching: E A l0/2 (l/l0 - 1)^2, A = pi d^2/4 (SPEC C.6). x = ends. At l = 0 there is a value, but no gradient. */
-typedef struct cipc_rod_stretching {
-    double stiffness; /* E A, N */
-    double length;    /* l0, m */
-} cipc_rod_stretching;
-/* Returns false for a segment of no length at rest. */
-bool cipc_rod_stretching_init(cipc_rod_stretching *params, const double rest[6], double diameter, double young);
-double cipc_rod_stretching_value(const double x[6], const cipc_rod_stretching *params);
-void cipc_rod_stretching_gradient(const double x[6], const cipc_rod_stretching *params, double g[6]);
-void cipc_rod_stretching_hessian(const double x[6], const cipc_rod_stretching *params, double H[36]);
-
-/* Rod bending (Bergou 2008, isotropic; SPEC C.6): E I/Lbar (|kb| - |kb|_rest)^2, kb = 2 e0 x e1/(|e0||e1| + e0.e1), I = pi d^4/64, Lbar the sum of the rest lengths.
- * x = end, joint, end. INFINITY where the joint is folded back or a segment has no length. A rod that is curved at rest knows how much, not in which plane: its energy has
- * the tip of a cone where it is straight, and no derivatives there. */
-typedef struct cipc_rod_bending {
-    double stiffness;      /* E I/Lbar, J */
-    double rest_curvature; /* |kb| at rest = 2 tan(phi/2), phi the turning angle; 0: straight */
-} cipc_rod_bending;
-/* `curved`: bent at rest like `rest`. Returns false for a segment of no length or a joint folded back at rest. */
-bool cipc_rod_bending_init(cipc_rod_bending *params, const double rest[9], double diameter, double young, bool curved);
-double cipc_rod_bending_value(const double x[9], const cipc_rod_bending *params);
-void cipc_rod_bending_gradient(const double x[9], const cipc_rod_bending *params, double g[9]);
-void cipc_rod_bending_hessian(const double x[9], const cipc_rod_bending *params, double H[81]);
-
-/* Stitch: k/2 |x0 - ((1 - r) x1 + r x2)|^2 (SPEC C.6). x = node, ends of the edge. */
-typedef struct cipc_stitch {
-    double stiffness; /* k, N/m */
-    double ratio;     /* r in [0, 1] */
-} cipc_stitch;
-double cipc_stitch_value(const double x[9], const cipc_stitch *params);
-void cipc_stitch_gradient(const double x[9], const cipc_stitch *params, double g[9]);
-void cipc_stitch_hessian(const double x[9], const cipc_stitch *params, double H[81]);
 /* --- tetrahedra: x = x0, x1, x2, x3, of positive orientation at rest ---------------------------------------------------------------- */
 
 /* Rest data of a tetrahedron. B = [X1-X0, X2-X0, X3-X0]; F = [x1-x0, x2-x0, x3-x0] B^-1; J = det F. */
@@ -166,6 +132,54 @@ void cipc_volume_corotational_hessian(const double x[12], const cipc_volume *par
 double cipc_volume_neo_hookean_value(const double x[12], const cipc_volume *params);
 void cipc_volume_neo_hookean_gradient(const double x[12], const cipc_volume *params, double g[12]);
 void cipc_volume_neo_hookean_hessian(const double x[12], const cipc_volume *params, double H[144]);
+/* --- rods: segments x0, x1; joints x0, x1, x2 with the segments (x0,x1) and (x1,x2) ---------------------------------------------- */
+
+/* Stretching: E A l0/2 (l/l0 - 1)^2 (SPEC C.6). Where both nodes coincide the value is finite but gradient and Hessian do not exist. */
+typedef struct cipc_rod_stretching {
+    double stiffness; /* E A, N; A = pi d^2/4 */
+    double length;    /* l0, m */
+} cipc_rod_stretching;
+/* Returns false for a rest segment of no length. */
+bool cipc_rod_stretching_init(cipc_rod_stretching *params, const double rest[6], double diameter, double young);
+double cipc_rod_stretching_value(const double x[6], const cipc_rod_stretching *params);
+void cipc_rod_stretching_gradient(const double x[6], const cipc_rod_stretching *params, double g[6]);
+void cipc_rod_stretching_hessian(const double x[6], const cipc_rod_stretching *params, double H[36]);
+
+/* Bending: k (|kb| - kbar)^2, kb = 2 e0 x e1 / (|e0||e1| + e0.e1), |kb| = 2 tan(phi/2), phi the turning angle (Bergou et al. 2008; SPEC C.6). Isotropic and
+ * without material frames: of a curved rest shape only the amount of curvature counts, not its plane; gradient and Hessian at exactly phi = 0, where such
+ * a rod has a cone, are those of the part without it. INFINITY: folded back (phi = pi), or a segment of no length. */
+typedef struct cipc_rod_bending {
+    double stiffness;      /* k = E I / (l0_0 + l0_1), N m; I = pi d^4/64 */
+    double rest_curvature; /* kbar = |kb| at rest, 1; 0 is straight */
+} cipc_rod_bending;
+/* `curved`: kbar is that of the rest shape, else 0. Returns false for a rest segment of no length and for a rest shape folded back. */
+bool cipc_rod_bending_init(cipc_rod_bending *params, const double rest[9], double diameter, double young, bool curved);
+double cipc_rod_bending_value(const double x[9], const cipc_rod_bending *params);
+void cipc_rod_bending_gradient(const double x[9], const cipc_rod_bending *params, double g[9]);
+void cipc_rod_bending_hessian(const double x[9], const cipc_rod_bending *params, double H[81]);
+
+/* Stitch of node x0 to the place r on the edge (x1,x2): k/2 |x0 - ((1-r) x1 + r x2)|^2 (SPEC C.6). */
+typedef struct cipc_stitch {
+    double stiffness; /* k, N/m */
+    double ratio;     /* r, 0 at x1 and 1 at x2 */
+} cipc_stitch;
+double cipc_stitch_value(const double x[9], const cipc_stitch *params);
+void cipc_stitch_gradient(const double x[9], const cipc_stitch *params, double g[9]);
+void cipc_stitch_hessian(const double x[9], const cipc_stitch *params, double H[81]);
+
+/* --- damping of any element, up to 4 nodes -------------------------------------------------------------------------------------- */
+
+/* Rayleigh damping as a potential: c/2 (x - start)^T K (x - start), K the element's stiffness at the start of the step. */
+typedef struct cipc_damping {
+    double factor;        /* c >= 0: 1, or s, as the assembly divides by the time step */
+    double start[12];     /* positions at the start of the step, m */
+    double stiffness[78]; /* K, N/m: symmetric positive semi-definite 12 x 12, upper triangle row by row; rows of absent nodes are zero */
+} cipc_damping;
+/* K := hessian[n*n], n = 3 * nodes, of which the upper triangle is read; start[n]. The absent nodes' start is 0. */
+void cipc_damping_init(cipc_damping *params, double factor, int nodes, const double *start, const double *hessian);
+double cipc_damping_value(const double x[12], const cipc_damping *params);
+void cipc_damping_gradient(const double x[12], const cipc_damping *params, double g[12]);
+void cipc_damping_hessian(const double x[12], const cipc_damping *params, double H[144]);
 
 /* --- contact ---------------------------------------------------------------------------------------------------------------- */
 
@@ -247,7 +261,7 @@ typedef enum cipc_energy_id {
     CIPC_ENERGY_MEMBRANE_NEO_HOOKEAN, CIPC_ENERGY_MEMBRANE_STVK, CIPC_ENERGY_STRAIN_LIMIT,
     CIPC_ENERGY_STRAIN_LIMIT_LOWER, CIPC_ENERGY_MEMBRANE_ORTHOTROPIC,
     CIPC_ENERGY_HINGE_BENDING,
-    CIPC_ENERGY_ROD_STRETCHING, CIPC_ENERGY_ROD_BENDING, CIPC_ENERGY_STITCH,
+    CIPC_ENERGY_ROD_STRETCHING, CIPC_ENERGY_ROD_BENDING, CIPC_ENERGY_STITCH, CIPC_ENERGY_DAMPING,
     CIPC_ENERGY_VOLUME_COROTATIONAL, CIPC_ENERGY_VOLUME_NEO_HOOKEAN,
     CIPC_ENERGY_BARRIER_POINT_POINT, CIPC_ENERGY_BARRIER_POINT_EDGE, CIPC_ENERGY_BARRIER_POINT_TRIANGLE, CIPC_ENERGY_BARRIER_EDGE_EDGE,
     CIPC_ENERGY_FRICTION,
@@ -259,7 +273,7 @@ const cipc_energy *cipc_energy_entry(cipc_energy_id id);
 /* By name, or NULL. */
 const cipc_energy *cipc_energy_find(const char *name);
 /* The flat list of an energy's parameters: its length (at most CIPC_ENERGY_NUMBERS), and both ways. Reading is false for a feature that is none. */
-enum { CIPC_ENERGY_NUMBERS = 32 };
+enum { CIPC_ENERGY_NUMBERS = 96 };
 int cipc_energy_number_count(const cipc_energy *energy);
 void cipc_energy_numbers(const cipc_energy *energy, const void *params, double *numbers);
 bool cipc_energy_params(const cipc_energy *energy, const double *numbers, void *params);

@@ -19,10 +19,11 @@ const cipc_energy_field energy_fields_orthotropic[11] = {MANY(cipc_orthotropic, 
                                                 ONE(cipc_orthotropic, g12), ONE(cipc_orthotropic, limit11), ONE(cipc_orthotropic, limit22),
                                                 ONE(cipc_orthotropic, limit12)};
 const cipc_energy_field energy_fields_hinge_bending[2] = {ONE(cipc_hinge_bending, stiffness), ONE(cipc_hinge_bending, rest_angle)};
+const cipc_energy_field energy_fields_volume[4] = {MANY(cipc_volume, inverse_rest, 9), ONE(cipc_volume, volume), ONE(cipc_volume, mu), ONE(cipc_volume, lambda)};
 const cipc_energy_field energy_fields_rod_stretching[2] = {ONE(cipc_rod_stretching, stiffness), ONE(cipc_rod_stretching, length)};
 const cipc_energy_field energy_fields_rod_bending[2] = {ONE(cipc_rod_bending, stiffness), ONE(cipc_rod_bending, rest_curvature)};
 const cipc_energy_field energy_fields_stitch[2] = {ONE(cipc_stitch, stiffness), ONE(cipc_stitch, ratio)};
-const cipc_energy_field energy_fields_volume[4] = {MANY(cipc_volume, inverse_rest, 9), ONE(cipc_volume, volume), ONE(cipc_volume, mu), ONE(cipc_volume, lambda)};
+const cipc_energy_field energy_fields_damping[3] = {ONE(cipc_damping, factor), MANY(cipc_damping, start, 12), MANY(cipc_damping, stiffness, 78)};
 const cipc_energy_field energy_fields_barrier[6] = {ONE(cipc_contact_barrier, stiffness), ONE(cipc_contact_barrier, weight), ONE(cipc_contact_barrier, offset),
                                             ONE(cipc_contact_barrier, dhat), ONE(cipc_contact_barrier, mollifier_eps),
                                             {"feature", offsetof(cipc_contact_barrier, feature), 1, true}};

@@ -28,11 +28,12 @@ THUNKS(strain_limit, cipc_strain_limit)
 THUNKS(strain_limit_lower, cipc_strain_limit)
 THUNKS(membrane_orthotropic, cipc_orthotropic)
 THUNKS(hinge_bending, cipc_hinge_bending)
+THUNKS(volume_corotational, cipc_volume)
+THUNKS(volume_neo_hookean, cipc_volume)
 THUNKS(rod_stretching, cipc_rod_stretching)
 THUNKS(rod_bending, cipc_rod_bending)
 THUNKS(stitch, cipc_stitch)
-THUNKS(volume_corotational, cipc_volume)
-THUNKS(volume_neo_hookean, cipc_volume)
+THUNKS(damping, cipc_damping)
 THUNKS(barrier_point_point, cipc_contact_barrier)
 THUNKS(barrier_point_edge, cipc_contact_barrier)
 THUNKS(barrier_point_triangle, cipc_contact_barrier)
@@ -67,15 +68,17 @@ static const cipc_energy table[CIPC_ENERGY_COUNT] = {
                                                energy_orthotropic_branch_names, 11, energy_fields_orthotropic),
     [CIPC_ENERGY_HINGE_BENDING] =
         ENTRY(hinge_bending, cipc_hinge_bending, 4, RIGID, hinge_bending, ENERGY_HINGE_BRANCHES, energy_hinge_branch_names, 2, energy_fields_hinge_bending),
+    [CIPC_ENERGY_VOLUME_COROTATIONAL] =
+        ENTRY(volume_corotational, cipc_volume, 4, RIGID, volume, ENERGY_VOLUME_BRANCHES, energy_volume_branch_names, 4, energy_fields_volume),
+    [CIPC_ENERGY_VOLUME_NEO_HOOKEAN] =
+        ENTRY(volume_neo_hookean, cipc_volume, 4, RIGID, volume, ENERGY_VOLUME_BRANCHES, energy_volume_branch_names, 4, energy_fields_volume),
     [CIPC_ENERGY_ROD_STRETCHING] = ENTRY(rod_stretching, cipc_rod_stretching, 2, RIGID, rod_stretching, ENERGY_ROD_STRETCHING_BRANCHES,
                                          energy_rod_stretching_branch_names, 2, energy_fields_rod_stretching),
     [CIPC_ENERGY_ROD_BENDING] =
         ENTRY(rod_bending, cipc_rod_bending, 3, RIGID, rod_bending, ENERGY_ROD_BENDING_BRANCHES, energy_rod_bending_branch_names, 2, energy_fields_rod_bending),
     [CIPC_ENERGY_STITCH] = ENTRY(stitch, cipc_stitch, 3, RIGID, stitch, ENERGY_STITCH_BRANCHES, energy_stitch_branch_names, 2, energy_fields_stitch),
-    [CIPC_ENERGY_VOLUME_COROTATIONAL] =
-        ENTRY(volume_corotational, cipc_volume, 4, RIGID, volume, ENERGY_VOLUME_BRANCHES, energy_volume_branch_names, 4, energy_fields_volume),
-    [CIPC_ENERGY_VOLUME_NEO_HOOKEAN] =
-        ENTRY(volume_neo_hookean, cipc_volume, 4, RIGID, volume, ENERGY_VOLUME_BRANCHES, energy_volume_branch_names, 4, energy_fields_volume),
+    /* K may be any element's, one that holds nodes to places among them: no invariance is promised, though most K have one. */
+    [CIPC_ENERGY_DAMPING] = ENTRY(damping, cipc_damping, 4, NONE, damping, ENERGY_DAMPING_BRANCHES, energy_damping_branch_names, 3, energy_fields_damping),
     [CIPC_ENERGY_BARRIER_POINT_POINT] = ENTRY(barrier_point_point, cipc_contact_barrier, 2, RIGID, barrier_point_point,
                                               ENERGY_CONTACT_BRANCHES, energy_contact_branch_names, ENERGY_BARRIER_PLAIN_FIELDS, energy_fields_barrier),
     [CIPC_ENERGY_BARRIER_POINT_EDGE] = ENTRY(barrier_point_edge, cipc_contact_barrier, 3, RIGID, barrier_point_edge,

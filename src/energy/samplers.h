@@ -32,9 +32,14 @@ enum {
     ENERGY_STRAIN_LIMIT_BRANCHES = 7,
     ENERGY_HINGE_BRANCHES = 14
 };
-enum { ENERGY_ROD_STRETCHING_BRANCHES = 4, ENERGY_ROD_BENDING_BRANCHES = 9, ENERGY_STITCH_BRANCHES = 3 };
 enum { ENERGY_STRAIN_LIMIT_LOWER_BRANCHES = 6, ENERGY_ORTHOTROPIC_BRANCHES = 14 };
 enum { ENERGY_VOLUME_BRANCHES = 8 };
+enum {
+    ENERGY_ROD_STRETCHING_BRANCHES = 4,
+    ENERGY_ROD_BENDING_BRANCHES = 10,
+    ENERGY_STITCH_BRANCHES = 4,
+    ENERGY_DAMPING_BRANCHES = 6
+};
 enum {
     ENERGY_CONTACT_BRANCHES = 6,
     ENERGY_POINT_EDGE_BRANCHES = 7,
@@ -50,10 +55,11 @@ extern const char *const energy_strain_limit_branch_names[ENERGY_STRAIN_LIMIT_BR
 extern const char *const energy_strain_limit_lower_branch_names[ENERGY_STRAIN_LIMIT_LOWER_BRANCHES];
 extern const char *const energy_orthotropic_branch_names[ENERGY_ORTHOTROPIC_BRANCHES];
 extern const char *const energy_hinge_branch_names[ENERGY_HINGE_BRANCHES];
+extern const char *const energy_volume_branch_names[ENERGY_VOLUME_BRANCHES];
 extern const char *const energy_rod_stretching_branch_names[ENERGY_ROD_STRETCHING_BRANCHES];
 extern const char *const energy_rod_bending_branch_names[ENERGY_ROD_BENDING_BRANCHES];
 extern const char *const energy_stitch_branch_names[ENERGY_STITCH_BRANCHES];
-extern const char *const energy_volume_branch_names[ENERGY_VOLUME_BRANCHES];
+extern const char *const energy_damping_branch_names[ENERGY_DAMPING_BRANCHES];
 extern const char *const energy_contact_branch_names[ENERGY_CONTACT_BRANCHES];
 extern const char *const energy_point_edge_branch_names[ENERGY_POINT_EDGE_BRANCHES];
 extern const char *const energy_point_triangle_branch_names[ENERGY_POINT_TRIANGLE_BRANCHES];
@@ -68,10 +74,11 @@ ENERGY_SAMPLER(strain_limit);
 ENERGY_SAMPLER(strain_limit_lower);
 ENERGY_SAMPLER(membrane_orthotropic);
 ENERGY_SAMPLER(hinge_bending);
+ENERGY_SAMPLER(volume);
 ENERGY_SAMPLER(rod_stretching);
 ENERGY_SAMPLER(rod_bending);
 ENERGY_SAMPLER(stitch);
-ENERGY_SAMPLER(volume);
+ENERGY_SAMPLER(damping);
 ENERGY_SAMPLER(barrier_point_point);
 ENERGY_SAMPLER(barrier_point_edge);
 ENERGY_SAMPLER(barrier_point_triangle);

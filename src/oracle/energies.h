@@ -14,11 +14,12 @@ mpfr_ptr oracle_strain_limit(oracle_reals *s, const mpfr_t *x, const double *fie
 mpfr_ptr oracle_strain_limit_lower(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_membrane_orthotropic(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_hinge_bending(oracle_reals *s, const mpfr_t *x, const double *fields);
+mpfr_ptr oracle_volume_corotational(oracle_reals *s, const mpfr_t *x, const double *fields);
+mpfr_ptr oracle_volume_neo_hookean(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_rod_stretching(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_rod_bending(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_stitch(oracle_reals *s, const mpfr_t *x, const double *fields);
-mpfr_ptr oracle_volume_corotational(oracle_reals *s, const mpfr_t *x, const double *fields);
-mpfr_ptr oracle_volume_neo_hookean(oracle_reals *s, const mpfr_t *x, const double *fields);
+mpfr_ptr oracle_damping(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_barrier_point_point(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_barrier_point_edge(oracle_reals *s, const mpfr_t *x, const double *fields);
 mpfr_ptr oracle_barrier_point_triangle(oracle_reals *s, const mpfr_t *x, const double *fields);

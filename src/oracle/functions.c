@@ -19,11 +19,29 @@ static const char *const strain[] = {"inverse_rest[0]", "inverse_rest[1]", "inve
 static const char *const orthotropic[] = {"warp[0]", "warp[1]", "weft[0]", "weft[1]", "rest_cosine", "volume", "a11", "a12", "a22", "g12", "limit11", "limit22",
                                           "limit12"};
 static const char *const hinge[] = {"stiffness", "rest_angle"};
-static const char *const stretching[] = {"stiffness", "length"};
-static const char *const bending[] = {"stiffness", "rest_curvature"};
-static const char *const stitch[] = {"stiffness", "ratio"};
 static const char *const volume[] = {"inverse_rest[0]", "inverse_rest[1]", "inverse_rest[2]", "inverse_rest[3]", "inverse_rest[4]", "inverse_rest[5]",
                                      "inverse_rest[6]", "inverse_rest[7]", "inverse_rest[8]", "volume", "mu", "lambda"};
+static const char *const rod_stretching[] = {"stiffness", "length"};
+static const char *const rod_bending[] = {"stiffness", "rest_curvature"};
+static const char *const stitch[] = {"stiffness", "ratio"};
+static const char *const damping[] = {
+    "factor",
+    "start[0]", "start[1]", "start[2]", "start[3]", "start[4]", "start[5]",
+    "start[6]", "start[7]", "start[8]", "start[9]", "start[10]", "start[11]",
+    "stiffness[0]", "stiffness[1]", "stiffness[2]", "stiffness[3]", "stiffness[4]", "stiffness[5]",
+    "stiffness[6]", "stiffness[7]", "stiffness[8]", "stiffness[9]", "stiffness[10]", "stiffness[11]",
+    "stiffness[12]", "stiffness[13]", "stiffness[14]", "stiffness[15]", "stiffness[16]", "stiffness[17]",
+    "stiffness[18]", "stiffness[19]", "stiffness[20]", "stiffness[21]", "stiffness[22]", "stiffness[23]",
+    "stiffness[24]", "stiffness[25]", "stiffness[26]", "stiffness[27]", "stiffness[28]", "stiffness[29]",
+    "stiffness[30]", "stiffness[31]", "stiffness[32]", "stiffness[33]", "stiffness[34]", "stiffness[35]",
+    "stiffness[36]", "stiffness[37]", "stiffness[38]", "stiffness[39]", "stiffness[40]", "stiffness[41]",
+    "stiffness[42]", "stiffness[43]", "stiffness[44]", "stiffness[45]", "stiffness[46]", "stiffness[47]",
+    "stiffness[48]", "stiffness[49]", "stiffness[50]", "stiffness[51]", "stiffness[52]", "stiffness[53]",
+    "stiffness[54]", "stiffness[55]", "stiffness[56]", "stiffness[57]", "stiffness[58]", "stiffness[59]",
+    "stiffness[60]", "stiffness[61]", "stiffness[62]", "stiffness[63]", "stiffness[64]", "stiffness[65]",
+    "stiffness[66]", "stiffness[67]", "stiffness[68]", "stiffness[69]", "stiffness[70]", "stiffness[71]",
+    "stiffness[72]", "stiffness[73]", "stiffness[74]", "stiffness[75]", "stiffness[76]", "stiffness[77]",
+};
 static const char *const barrier[] = {"stiffness", "weight", "offset", "dhat", "mollifier_eps", "feature"};
 static const char *const friction[] = {"coefficient", "eps",       "weights[0]", "weights[1]", "weights[2]", "weights[3]", "basis[0]", "basis[1]",
                                        "basis[2]",    "basis[3]",  "basis[4]",   "basis[5]",   "start[0]",   "start[1]",   "start[2]", "start[3]",
@@ -40,11 +58,12 @@ static const entry table[] = {
     {{"strain_limit_lower", 3, 7, strain}, oracle_strain_limit_lower},
     {{"membrane_orthotropic", 3, 13, orthotropic}, oracle_membrane_orthotropic},
     {{"hinge_bending", 4, 2, hinge}, oracle_hinge_bending},
-    {{"rod_stretching", 2, 2, stretching}, oracle_rod_stretching},
-    {{"rod_bending", 3, 2, bending}, oracle_rod_bending},
-    {{"stitch", 3, 2, stitch}, oracle_stitch},
     {{"volume_corotational", 4, 12, volume}, oracle_volume_corotational},
     {{"volume_neo_hookean", 4, 12, volume}, oracle_volume_neo_hookean},
+    {{"rod_stretching", 2, 2, rod_stretching}, oracle_rod_stretching},
+    {{"rod_bending", 3, 2, rod_bending}, oracle_rod_bending},
+    {{"stitch", 3, 2, stitch}, oracle_stitch},
+    {{"damping", 4, 91, damping}, oracle_damping},
     {{"barrier_point_point", 2, 4, barrier}, oracle_barrier_point_point},
     {{"barrier_point_edge", 3, 4, barrier}, oracle_barrier_point_edge},
     {{"barrier_point_triangle", 4, 4, barrier}, oracle_barrier_point_triangle},

@@ -2,6 +2,7 @@
 #include "verify/condition.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { N = 12 };
 /* Fractions of the size tried, from 2^-26 to 2^-50, the last that is some roundings of the coordinates. */
@@ -65,4 +66,12 @@ verify_tolerances verify_tolerances_of(double value, const double *g, const doub
         .gradient = VERIFY_ROUNDINGS * u * (slope + bend * size),
         .hessian = VERIFY_ROUNDINGS * u * (bend + change),
     };
+}
+
+void verify_add_matrix_rounding(verify_tolerances *tolerances, const cipc_oracle_function *f, const double *x, const double *fields, const double *H)
+{
+    if (strcmp(f->name, "damping") != 0) return;
+    double way = verify_largest_error(x, fields + 1, N), force = VERIFY_ROUNDINGS * VERIFY_UNIT * verify_largest(H, N * N) * way; /* fields: factor, start[12], ... */
+    tolerances->value += force * way;
+    tolerances->gradient += force;
 }

@@ -28,5 +28,7 @@ typedef struct verify_tolerances {
     double value, gradient, hessian;
 } verify_tolerances;
 verify_tolerances verify_tolerances_of(double value, const double *g, const double *H, int n, double size, double change);
+/* Terms (8), (9) there, for "damping" alone: its Hessian H is a parameter, whose entries are rounded too. */
+void verify_add_matrix_rounding(verify_tolerances *tolerances, const cipc_oracle_function *function, const double *x, const double *fields, const double *H);
 
 #endif

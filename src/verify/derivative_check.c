@@ -7,7 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_N = 12, MAX_PARAMS = 512, RUNGS = 23 };
+enum { MAX_N = 12, MAX_PARAMS = 1024, RUNGS = 23 };
 
 /* Unit roundoff of double. */
 #define ROUNDING (DBL_EPSILON / 2)

@@ -23,6 +23,7 @@ static void describe(int index, verify_row *row)
 
 /* Value and derivatives of one configuration by the oracle, and how much the Hessian changes over the stencil's size: |dH| S. */
 typedef struct reference {
+    const cipc_oracle_function *function;
     int n;
     double size, value, g[N], H[N * N], change;
 } reference;
@@ -37,6 +38,7 @@ static double size_of(const double *x, int n)
 
 static bool look_up(const cipc_oracle_function *f, gsl_rng *rng, const double *x, const double *fields, reference *r)
 {
+    r->function = f;
     r->n = 3 * f->nodes;
     r->size = size_of(x, r->n);
     if (cipc_oracle_evaluate(f, x, fields, &r->value, r->g, r->H) != CIPC_YES) return false;
@@ -50,6 +52,7 @@ static void compare(const reference *r, const double *got_value, const double *g
 {
     double value_error = verify_largest_error(got_value, &r->value, 1), g_error = verify_largest_error(g, r->g, r->n), H_error = verify_largest_error(H, r->H, r->n * r->n);
     verify_tolerances tolerance = verify_tolerances_of(r->value, r->g, r->H, r->n, r->size, r->change);
+    verify_add_matrix_rounding(&tolerance, r->function, query->x, query->params, r->H);
     verify_measure(row, 0, verify_over(value_error, tolerance.value), sample, query);
     verify_measure(row, 1, verify_over(g_error, tolerance.gradient), sample, query);
     verify_measure(row, 2, verify_over(H_error, tolerance.hessian), sample, query);

@@ -9,7 +9,7 @@ typedef struct verify_energy_subject {
     const cipc_energy *(*entry)(cipc_energy_id id);
 } verify_energy_subject;
 
-enum { VERIFY_PARAMS_SIZE = 512, VERIFY_COORDINATES = 12 };
+enum { VERIFY_PARAMS_SIZE = 1024, VERIFY_COORDINATES = 12 };
 typedef union verify_params {
     double align;
     unsigned char bytes[VERIFY_PARAMS_SIZE];

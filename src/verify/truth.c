@@ -52,6 +52,7 @@ static bool differentiate(const cipc_oracle_function *f, const double *x, const 
     double size = size_of(x, n);
     if (cipc_oracle_evaluate(f, x, fields, &d->value, d->g, d->H) != CIPC_YES) return false;
     d->tolerance = verify_tolerances_of(d->value, d->g, d->H, n, size, verify_hessian_change(f, x, fields, d->g, d->H, size, 0x5a3c96));
+    verify_add_matrix_rounding(&d->tolerance, f, x, fields, d->H);
     return true;
 }
 

@@ -197,6 +197,43 @@ static double orthotropic_value_without_squares(const double *x, const void *par
     return cipc_membrane_orthotropic_value(x, &wrong);
 }
 
+/* The spring along the segment alone, without the tension that holds it sideways. */
+static void rod_stretching_hessian_without_tension(const double *x, const void *params, double *H)
+{
+    const cipc_rod_stretching *p = params;
+    double e[3], sign[2] = {-1, 1};
+    v3_sub(e, x + 3, x);
+    for (int i = 0; i < 36; i++) H[i] = p->stiffness / p->length * sign[i / 18] * sign[i % 6 / 3] * e[i / 6 % 3] * e[i % 3] / v3_norm2(e);
+}
+
+/* |kb| instead of |kb| - kbar: right on straight rods, wrong on curved ones only. */
+static void rod_bending_gradient_without_rest_curvature(const double *x, const void *params, double *g)
+{
+    cipc_rod_bending wrong = *(const cipc_rod_bending *)params;
+    wrong.rest_curvature = 0;
+    cipc_rod_bending_gradient(x, &wrong, g);
+}
+
+/* r counted from the edge's other end. */
+static void stitch_gradient_from_the_other_end(const double *x, const void *params, double *g)
+{
+    cipc_stitch wrong = *(const cipc_stitch *)params;
+    wrong.ratio = 1 - wrong.ratio;
+    cipc_stitch_gradient(x, &wrong, g);
+}
+
+static double damping_value_scaled(const double *x, const void *params) { return SCALED * cipc_damping_value(x, params); }
+static void damping_gradient_scaled(const double *x, const void *params, double *g)
+{
+    cipc_damping_gradient(x, params, g);
+    for (int i = 0; i < N; i++) g[i] *= SCALED;
+}
+static void damping_hessian_scaled(const double *x, const void *params, double *H)
+{
+    cipc_damping_hessian(x, params, H);
+    for (int i = 0; i < N * N; i++) H[i] *= SCALED;
+}
+
 static void inertia_hessian_not_a_number(const double *x, const void *params, double *H)
 {
     cipc_inertia_hessian(x, params, H);
@@ -222,10 +259,14 @@ static const wrong_energy table[] = {
     {"rotation held still", "volume_corotational", "Hessian[", "Hessian, error", .hessian = corotational_hessian_without_turning},
     {"lost pressure", "volume_neo_hookean", "differences give", "gradient, error", .gradient = volume_gradient_without_pressure},
     {"lost square of the limit", "membrane_orthotropic", "", "value, error", .value = orthotropic_value_without_squares},
+    {"lost tension of a rod", "rod_stretching", "Hessian[", "Hessian, error", .hessian = rod_stretching_hessian_without_tension},
+    {"lost rest curvature", "rod_bending", "curved_rest", "gradient, error", .gradient = rod_bending_gradient_without_rest_curvature},
+    {"stitch from the other end", "stitch", "differences give", "gradient, error", .gradient = stitch_gradient_from_the_other_end},
     {"not a number", "inertia", "not finite", "not finite", .hessian = inertia_hessian_not_a_number},
     /* Wrong and consistent: only MPFR knows. */
     {"gravity, all of it off by 1e-9", "gravity", NULL, "value, error", .value = gravity_value_scaled, .gradient = gravity_gradient_scaled},
     {"membrane, all of it off by 1e-9", "membrane_neo_hookean", NULL, "value, error", .value = membrane_value_scaled, .gradient = membrane_gradient_scaled, .hessian = membrane_hessian_scaled},
+    {"damping, all of it off by 1e-9", "damping", NULL, "value, error", .value = damping_value_scaled, .gradient = damping_gradient_scaled, .hessian = damping_hessian_scaled},
 };
 /* clang-format on */
 

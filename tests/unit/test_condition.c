@@ -32,6 +32,22 @@ static void test_tolerances(void **state)
     assert_true(verify_tolerances_of(0, g, H, 2, 7, INFINITY).hessian == INFINITY);
 }
 
+/* H = 5 and d = 3 add 16 u 15 to the gradient's and 16 u 45 to the value's; to nobody else's. */
+static void test_a_matrix_is_rounded_too(void **state)
+{
+    (void)state;
+    const double H[144] = {[7] = -5}, ku = 16 * VERIFY_UNIT;
+    double x[12] = {0}, fields[91] = {0};
+    verify_tolerances t = {1, 1, 1};
+    x[4] = 1;
+    fields[1 + 4] = 4;
+    fields[1 + 12] = 1e9; /* beyond start: no displacement */
+    verify_add_matrix_rounding(&t, cipc_oracle_function_find("hinge_bending"), x, fields, H);
+    assert_true(t.value == 1 && t.gradient == 1 && t.hessian == 1);
+    verify_add_matrix_rounding(&t, cipc_oracle_function_find("damping"), x, fields, H);
+    assert_true(t.value == 1 + ku * 45 && t.gradient == 1 + ku * 15 && t.hessian == 1);
+}
+
 static double change_of(const char *name, const double *x, const double *fields, double size)
 {
     const cipc_oracle_function *f = cipc_oracle_function_find(name);
@@ -69,6 +85,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_largest),
         cmocka_unit_test(test_tolerances),
+        cmocka_unit_test(test_a_matrix_is_rounded_too),
         cmocka_unit_test(test_changes_of_hessians),
         cmocka_unit_test(test_not_determined),
     };

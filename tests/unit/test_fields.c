@@ -12,7 +12,7 @@
 #include "cipc/energy.h"
 #include "cipc/oracle.h"
 
-enum { MOST_BYTES = 512, SAMPLES = 5 };
+enum { MOST_BYTES = 1024, SAMPLES = 5 };
 static const unsigned long SEED = 20261127;
 
 static size_t field_bytes(const cipc_energy_field *field)

@@ -252,6 +252,80 @@ static void test_hinge(void **state)
     }
 }
 
+/* l = 5 against l0 = 4, E A = 8: k = 2, tension 2. */
+static void test_rod_stretching(void **state)
+{
+    (void)state;
+    const double x[6] = {1, 1, 1, 4, 5, 1}, fields[2] = {8, 4}, rest[2] = {8, 5};
+    answer a = ask_well("rod_stretching", x, fields);
+    same(a.value, 1);
+    same(a.g[3], (double)(2 * 3 / 5.0L));
+    same(a.g[1], (double)(-2 * 4 / 5.0L));
+    same(a.H[35], (double)(2 / 5.0L)); /* across: tension / l */
+    same(a.H[3 * 6 + 4], (double)((2 - 2 / 5.0L) * 12 / 25));
+    a = ask_well("rod_stretching", x, rest);
+    same(a.value, 0);
+    assert_true(fabs(a.g[3]) < 1e-58); /* nothing but what the step leaves, 2^-200 */
+    same(a.H[3 * 6 + 3], (double)(8 / 5.0L * 9 / 25));
+}
+
+/* A right angle: kappa = 2, sigma = 2. Stiffness 3. The segments have the lengths 1 and 2. */
+static void test_rod_bending(void **state)
+{
+    (void)state;
+    const double x[9] = {-1, 0, 0, 0, 0, 0, 0, 2, 0}, straight[9] = {-1, 0, 0, 0, 0, 0, 2, 0, 0}, soft[2] = {3, 0}, curved[2] = {3, 1};
+    answer a = ask_well("rod_bending", x, soft);
+    same(a.value, 12);
+    same(a.g[1], 24);    /* turning by dphi raises E by 2 k kappa sigma dphi; x0 by dphi / 1, downwards */
+    same(a.g[6], -12);
+    same(a.H[8 * 9 + 8], 0); /* out of plane: kappa cot phi = 0 */
+    same(a.H[6 * 9 + 6], (double)(2 * 3 * 2 * 4 / 4.0L)); /* F (sigma + kappa^2/2) / b^2 */
+    a = ask_well("rod_bending", x, curved);
+    same(a.value, 3);
+    same(a.g[1], 12);
+    same(a.H[2 * 9 + 8], (double)(-12 * 0.5L * 2 / -2)); /* F s sigma / (a b), with the minus of e0 = x1 - x0 */
+    a = ask_well("rod_bending", straight, soft);
+    same(a.value, 0);
+    same(a.g[1], 0);
+    same(a.H[1 * 9 + 1], 6); /* 2 k / a^2 */
+    same(a.H[2 * 9 + 8], 3); /* 2 k / (a b) */
+}
+
+static void test_stitch(void **state)
+{
+    (void)state;
+    const double x[9] = {0, 3, 0, 0, 1, 0, 4, 1, 0}, fields[2] = {2, 0.25};
+    answer a = ask_well("stitch", x, fields); /* the gap (-1, 2, 0) */
+    same(a.value, 5);
+    same(a.g[0], -2);
+    same(a.g[4], -3);
+    same(a.g[7], -1);
+    same(a.H[0], 2);
+    same(a.H[3 * 9 + 6], 0.375);
+}
+
+/* K of two dyads, one of which reaches over all nodes: the first and the last number of the triangle, and the corner between them. */
+static void test_damping(void **state)
+{
+    (void)state;
+    double fields[91] = {0.5}, x[12] = {0};
+    fields[1] = 1;          /* start */
+    fields[12] = -1;
+    fields[13] = 4;         /* K_00 */
+    fields[13 + 11] = 2;    /* K_0,11 */
+    fields[13 + 77] = 3;    /* K_11,11 */
+    x[0] = 2;
+    x[11] = 1;
+    answer a = ask_well("damping", x, fields); /* d = (1, 0, .., 2): 1/4 (4 + 2 * 2 * 2 + 3 * 4) */
+    same(a.value, 6);
+    same(a.g[0], 4);
+    same(a.g[11], 4);
+    same(a.g[5], 0);
+    same(a.H[0], 2);
+    same(a.H[11], 1);
+    same(a.H[143], 1.5);
+}
+
 /* Sticking at half the width, at rest, at the transition, beyond. */
 static void test_friction(void **state)
 {
@@ -306,6 +380,10 @@ static const named formulas[] = {
     {"hinge_bending", oracle_hinge_bending},
     {"volume_corotational", oracle_volume_corotational},
     {"volume_neo_hookean", oracle_volume_neo_hookean},
+    {"rod_stretching", oracle_rod_stretching},
+    {"rod_bending", oracle_rod_bending},
+    {"stitch", oracle_stitch},
+    {"damping", oracle_damping},
     {"barrier_point_point", oracle_barrier_point_point},
     {"barrier_point_edge", oracle_barrier_point_edge},
     {"barrier_point_triangle", oracle_barrier_point_triangle},
@@ -341,7 +419,7 @@ static void test_twice_the_precision(void **state)
     for (size_t k = 0; k < sizeof formulas / sizeof *formulas; k++) {
         const cipc_energy *energy = cipc_energy_find(formulas[k].name);
         for (int trial = 0; trial < 20 * energy->branch_count; trial++) {
-            union { double align; unsigned char bytes[512]; } params = {0};
+            union { double align; unsigned char bytes[1024]; } params = {0};
             double x[N], fields[CIPC_ENERGY_NUMBERS];
             mpfr_t once, twice, difference;
             energy->sample(rng, trial % energy->branch_count, x, &params);
@@ -438,6 +516,26 @@ static void test_jumps_and_ends_are_refused(void **state)
     assert_int_equal(ask("barrier_point_point", inside, fields).verdict, CIPC_YES);
 }
 
+/* Where a segment has no length there is no gradient of its length, and where a curved rod is straight none of its curvature: by symmetry all differences
+ * would be 0. The values are answered; folded back there is none. */
+static void test_cones_are_refused(void **state)
+{
+    (void)state;
+    const double straight[9] = {-1, 0, 0, 0, 0, 0, 2, 0, 0}, folded[9] = {1, 0, 0, 0, 0, 0, 2, 0, 0}, none[9] = {0}, curved[2] = {3, 2}, soft[2] = {3, 0};
+    const char *const names[2] = {"rod_stretching", "rod_bending"};
+    const double *const at[2] = {none, straight};
+    for (int k = 0; k < 2; k++) {
+        double value, g[N];
+        const cipc_oracle_function *f = cipc_oracle_function_find(names[k]);
+        assert_int_equal(cipc_oracle_evaluate(f, at[k], curved, &value, NULL, NULL), CIPC_YES);
+        same(value, k == 0 ? 3 : 12);
+        assert_int_equal(cipc_oracle_evaluate(f, at[k], curved, &value, g, NULL), CIPC_INDETERMINATE);
+        refused(names[k], at[k], curved);
+    }
+    refused("rod_bending", folded, soft);
+    refused("rod_bending", none, soft);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -452,12 +550,17 @@ int main(void)
         cmocka_unit_test(test_orthotropic),
         cmocka_unit_test(test_volumes),
         cmocka_unit_test(test_hinge),
+        cmocka_unit_test(test_rod_stretching),
+        cmocka_unit_test(test_rod_bending),
+        cmocka_unit_test(test_stitch),
+        cmocka_unit_test(test_damping),
         cmocka_unit_test(test_friction),
         cmocka_unit_test(test_twice_the_precision),
         cmocka_unit_test(test_infeasible_is_refused),
         cmocka_unit_test(test_steps_that_are_too_long_are_noticed),
         cmocka_unit_test(test_end_of_the_mollifier),
         cmocka_unit_test(test_jumps_and_ends_are_refused),
+        cmocka_unit_test(test_cones_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

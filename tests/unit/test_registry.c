@@ -31,11 +31,12 @@ static const promise promises[CIPC_ENERGY_COUNT] = {
     [CIPC_ENERGY_STRAIN_LIMIT_LOWER] = {"strain_limit_lower", 3, sizeof(cipc_strain_limit), RIGID},
     [CIPC_ENERGY_MEMBRANE_ORTHOTROPIC] = {"membrane_orthotropic", 3, sizeof(cipc_orthotropic), RIGID},
     [CIPC_ENERGY_HINGE_BENDING] = {"hinge_bending", 4, sizeof(cipc_hinge_bending), RIGID},
+    [CIPC_ENERGY_VOLUME_COROTATIONAL] = {"volume_corotational", 4, sizeof(cipc_volume), RIGID},
+    [CIPC_ENERGY_VOLUME_NEO_HOOKEAN] = {"volume_neo_hookean", 4, sizeof(cipc_volume), RIGID},
     [CIPC_ENERGY_ROD_STRETCHING] = {"rod_stretching", 2, sizeof(cipc_rod_stretching), RIGID},
     [CIPC_ENERGY_ROD_BENDING] = {"rod_bending", 3, sizeof(cipc_rod_bending), RIGID},
     [CIPC_ENERGY_STITCH] = {"stitch", 3, sizeof(cipc_stitch), RIGID},
-    [CIPC_ENERGY_VOLUME_COROTATIONAL] = {"volume_corotational", 4, sizeof(cipc_volume), RIGID},
-    [CIPC_ENERGY_VOLUME_NEO_HOOKEAN] = {"volume_neo_hookean", 4, sizeof(cipc_volume), RIGID},
+    [CIPC_ENERGY_DAMPING] = {"damping", 4, sizeof(cipc_damping), 0},
     [CIPC_ENERGY_BARRIER_POINT_POINT] = {"barrier_point_point", 2, sizeof(cipc_contact_barrier), RIGID},
     [CIPC_ENERGY_BARRIER_POINT_EDGE] = {"barrier_point_edge", 3, sizeof(cipc_contact_barrier), RIGID},
     [CIPC_ENERGY_BARRIER_POINT_TRIANGLE] = {"barrier_point_triangle", 4, sizeof(cipc_contact_barrier), RIGID},
@@ -112,11 +113,12 @@ static void test_entries_call_their_functions(void **state)
     CHECK_THUNKS(strain_limit_lower, cipc_strain_limit);
     CHECK_THUNKS(membrane_orthotropic, cipc_orthotropic);
     CHECK_THUNKS(hinge_bending, cipc_hinge_bending);
+    CHECK_THUNKS(volume_corotational, cipc_volume);
+    CHECK_THUNKS(volume_neo_hookean, cipc_volume);
     CHECK_THUNKS(rod_stretching, cipc_rod_stretching);
     CHECK_THUNKS(rod_bending, cipc_rod_bending);
     CHECK_THUNKS(stitch, cipc_stitch);
-    CHECK_THUNKS(volume_corotational, cipc_volume);
-    CHECK_THUNKS(volume_neo_hookean, cipc_volume);
+    CHECK_THUNKS(damping, cipc_damping);
     CHECK_THUNKS(barrier_point_point, cipc_contact_barrier);
     CHECK_THUNKS(barrier_point_edge, cipc_contact_barrier);
     CHECK_THUNKS(barrier_point_triangle, cipc_contact_barrier);
