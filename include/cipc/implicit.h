@@ -56,6 +56,7 @@ const char *cipc_phase_name(cipc_phase phase);
 /* The incremental potential by term, J (elastic terms are times alpha h^2; barrier and friction as they enter E). */
 typedef struct cipc_energy_terms {
     double inertia, membrane, bending, strain_limit, barrier, friction, penalty;
+    double damping;
     double stretching, volume, stitches; /* of rods; of tetrahedra; bending is that of shells and rods */
     double total;
     double noise;   /* bound on the rounding error of total */

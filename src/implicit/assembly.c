@@ -112,10 +112,19 @@ static cipc_status reserve_contact_slots(cipc_stepper *s, int count, cipc_error 
     return CIPC_OK;
 }
 
+/* Contact, friction and damping have their slots one after the other. */
+static size_t first_slot(const cipc_term_list lists[CIPC_LIST_COUNT], int list)
+{
+    size_t first = 0;
+    for (int l = CIPC_LIST_CONTACT; l < list; l++) first += PAIRS * (size_t)lists[l].count;
+    return first;
+}
+
 static bool find_contact_slots(const cipc_stepper *s, const cipc_term_list lists[CIPC_LIST_COUNT])
 {
-    bool contacts = find_slots(s, &lists[CIPC_LIST_CONTACT], s->contact_slots);
-    return find_slots(s, &lists[CIPC_LIST_FRICTION], s->contact_slots + PAIRS * (size_t)lists[CIPC_LIST_CONTACT].count) && contacts;
+    bool complete = true;
+    for (int l = CIPC_LIST_CONTACT; l < CIPC_LIST_COUNT; l++) complete = find_slots(s, &lists[l], s->contact_slots + first_slot(lists, l)) && complete;
+    return complete;
 }
 
 /* The pattern holds all elements, those too that the present stage leaves out: the next stage needs no other. */
@@ -157,7 +166,7 @@ static cipc_status new_pattern(cipc_stepper *s, cipc_error *error)
 
 static cipc_status update_pattern(cipc_stepper *s, const cipc_term_list lists[CIPC_LIST_COUNT], cipc_error *error)
 {
-    cipc_status status = reserve_contact_slots(s, lists[CIPC_LIST_CONTACT].count + lists[CIPC_LIST_FRICTION].count, error);
+    cipc_status status = reserve_contact_slots(s, lists[CIPC_LIST_CONTACT].count + lists[CIPC_LIST_FRICTION].count + lists[CIPC_LIST_DAMPING].count, error);
     if (status) return status;
     if (s->pattern_valid && find_contact_slots(s, lists)) return CIPC_OK;
     return new_pattern(s, error);
@@ -286,7 +295,7 @@ cipc_status cipc_assemble_hessian(cipc_stepper *s, cipc_error *error)
         if (status) return status;
         list_hessians(s, &lists[l]);
         const int *slots = l < CIPC_GROUP_COUNT ? s->static_slots + PAIRS * first
-                                                : s->contact_slots + (l == CIPC_LIST_FRICTION ? PAIRS * (size_t)lists[CIPC_LIST_CONTACT].count : 0);
+                                                : s->contact_slots + first_slot(lists, l);
         scatter(s, &lists[l], slots);
         if (l < CIPC_GROUP_COUNT) first += (size_t)s->groups[l].count;
     }

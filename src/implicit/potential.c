@@ -50,6 +50,10 @@ void cipc_term_lists(const cipc_stepper *s, const cipc_contact_set *contacts, ci
                                .params_stride = sizeof *s->friction.params, .nodes = (const char *)s->friction.nodes,
                                .nodes_stride = sizeof *s->friction.nodes, .scale = 1, .chain = 1, .convex = true};
     lists[CIPC_LIST_FRICTION] = friction;
+    cipc_term_list damping = {.energy = cipc_energy_entry(CIPC_ENERGY_DAMPING), .count = s->stage == CIPC_STAGE_PROJECT ? 0 : s->damping.count,
+                              .params = (const char *)s->damping.params, .params_stride = sizeof *s->damping.params, .nodes = (const char *)s->damping.nodes,
+                              .nodes_stride = sizeof *s->damping.nodes, .scale = elastic * beta, .chain = 1, .convex = true};
+    lists[CIPC_LIST_DAMPING] = damping;
 }
 
 static void gather(const double *x, const int *nodes, int count, double *y)
@@ -179,8 +183,9 @@ cipc_status cipc_potential_value(cipc_stepper *s, const double *x, const cipc_co
     terms->strain_limit = value[CIPC_GROUP_STRAIN_LIMIT] + value[CIPC_GROUP_STRAIN_LIMIT_LOWER];
     terms->barrier = value[CIPC_LIST_CONTACT];
     terms->friction = value[CIPC_LIST_FRICTION];
+    terms->damping = value[CIPC_LIST_DAMPING];
     terms->total = terms->inertia + terms->membrane + terms->bending + terms->strain_limit + terms->barrier + terms->friction + terms->penalty +
-                   terms->stretching + terms->volume + terms->stitches;
+                   terms->damping + terms->stretching + terms->volume + terms->stitches;
     terms->noise = s->noise;
     return CIPC_OK;
 }

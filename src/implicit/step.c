@@ -106,7 +106,7 @@ void cipc_stepper_destroy(cipc_stepper *s)
     cipc_block_matrix_free(&s->matrix);
     cipc_linear_solver_destroy(s->solver);
     void *blocks[] = {s->x_start, s->x_hat, s->x, s->trial, s->blend, s->gradient, s->direction, s->target, s->right, s->solution, s->cache.reference,
-                      s->is_dirichlet, s->moves, s->passive, s->free_index, s->free_nodes, s->friction.params, s->friction.nodes, s->static_slots, s->contact_slots,
+                      s->is_dirichlet, s->moves, s->passive, s->free_index, s->free_nodes, s->friction.params, s->friction.nodes, s->damping.params, s->damping.nodes, s->static_slots, s->contact_slots,
                       s->kept_pairs, s->values, s->locals, s};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) cipc_free(blocks[i]);
 }
@@ -272,6 +272,11 @@ static cipc_status take_step(cipc_stepper *s, cipc_state *state, cipc_error *err
     s->strain_factor = state->strain_stiffness_factor;
     s->step = state->step;
     predict(s, state);
+    cipc_status damped = cipc_damping_lag(s, error);
+    if (damped) {
+        memcpy(s->x, s->x_start, 3 * (size_t)s->model->node_count * sizeof(double));
+        return damped;
+    }
     bool split = s->options.strain_coupling == CIPC_STRAIN_SPLIT &&
                  s->groups[CIPC_GROUP_STRAIN_LIMIT].count + s->groups[CIPC_GROUP_STRAIN_LIMIT_LOWER].count > 0;
     cipc_status status = split ? solve_split(s, state->time, error) : solve(s, state->time, error);

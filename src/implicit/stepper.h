@@ -31,6 +31,13 @@ typedef struct cipc_friction_set {
     int (*nodes)[4]; /* a repeated node with weight 0 fills short stencils */
 } cipc_friction_set;
 
+/* Lagged damping: one entry an element of a body that has any. */
+typedef struct cipc_damping_set {
+    int count;
+    cipc_damping *params;
+    int (*nodes)[4]; /* as for friction */
+} cipc_damping_set;
+
 /* Candidate pairs that stay valid while every node is within slack/2 of its reference position. */
 typedef struct cipc_candidate_cache {
     cipc_broad_phase *broad_phase;
@@ -75,6 +82,7 @@ struct cipc_stepper {
     double noise;                 /* bound on the rounding error of E near the iterate, J */
     cipc_contact_set contacts, trial_contacts;
     cipc_friction_set friction;
+    cipc_damping_set damping;
     cipc_candidate_cache cache;
     cipc_limit limit;
     int step;
@@ -127,7 +135,10 @@ typedef struct cipc_term_list {
     double intrinsic_noise;    /* J per unit of u: size of the intermediate terms that cancel; see potential.c */
     bool convex;               /* Hessian needs no projection */
 } cipc_term_list;
-enum { CIPC_LIST_COUNT = CIPC_GROUP_COUNT + 2, CIPC_LIST_CONTACT = CIPC_GROUP_COUNT, CIPC_LIST_FRICTION = CIPC_GROUP_COUNT + 1 };
+enum {
+    CIPC_LIST_CONTACT = CIPC_GROUP_COUNT, CIPC_LIST_FRICTION, CIPC_LIST_DAMPING,
+    CIPC_LIST_COUNT
+};
 void cipc_term_lists(const cipc_stepper *s, const cipc_contact_set *contacts, cipc_term_list lists[CIPC_LIST_COUNT]);
 static inline const cipc_energy *cipc_term_energy(const cipc_term_list *list, int i)
 {
@@ -187,6 +198,9 @@ cipc_status cipc_newton(cipc_stepper *s, cipc_error *error);
 
 /* friction_lag.c: friction data from the present contacts. */
 cipc_status cipc_friction_lag(cipc_stepper *s, cipc_error *error);
+
+/* damping_lag.c: damping data from the elements at x^n. */
+cipc_status cipc_damping_lag(cipc_stepper *s, cipc_error *error);
 
 /* step.c: tell the monitor of an accepted point. */
 cipc_status cipc_accept(cipc_stepper *s, int iteration, bool energy_valid, double before, double after, cipc_error *error);

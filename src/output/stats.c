@@ -91,7 +91,7 @@ static const field energy_fields[] = {
 #define TERM_FIELD(name) {#name, REAL, offsetof(cipc_step_report, incremental.name)}
 static const field term_fields[] = {
     TERM_FIELD(inertia), TERM_FIELD(membrane), TERM_FIELD(bending), TERM_FIELD(strain_limit), TERM_FIELD(barrier),
-    TERM_FIELD(friction), TERM_FIELD(penalty), TERM_FIELD(stretching), TERM_FIELD(volume), TERM_FIELD(stitches),
+    TERM_FIELD(friction), TERM_FIELD(penalty), TERM_FIELD(damping), TERM_FIELD(stretching), TERM_FIELD(volume), TERM_FIELD(stitches),
     TERM_FIELD(total), TERM_FIELD(noise),
 };
 

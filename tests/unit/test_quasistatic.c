@@ -101,12 +101,36 @@ static void test_mass_damping(void **state)
     sheet_scene_free(&scene);
 }
 
+/* A stretched triangle let go: one step of implicit Euler of a damped oscillator, (1 + b h k/m + h^2 k/m) x' = x (1 + b h k/m) for small x at rest before. */
+static void test_stiffness_damping(void **state)
+{
+    (void)state;
+    const double rate = 0.05, stretch = 1e-6;
+    for (int damped = 0; damped < 2; damped++) {
+        sheet_scene scene;
+        cipc_body_description *body = hang(&scene);
+        scene.gravity[1] = 0;
+        body->material.damping_stiffness = damped ? rate : 0;
+        scene.options.newton_tolerance = 1e-12;
+        start(&scene);
+        scene.state->position[7] -= stretch;
+        sheet_step(&scene);
+        double h = scene.options.time_step, k = young * thickness * 0.5, m = scene.model->mass[2], drag = damped ? rate * h * k / m : 0;
+        double expected = (1 + drag) / (1 + drag + h * h * k / m), measured = (-1 - scene.state->position[7]) / stretch;
+        /* E's second derivative changes by 3/2 of the strain, 1e-6 */
+        if (!(fabs(measured - expected) <= 1e-5 * expected)) fail_msg("damped %d: %.9g of the stretch is left, wanted %.9g", damped, measured, expected);
+        assert_true(damped ? scene.report.incremental.damping > 0 : scene.report.incremental.damping == 0);
+        sheet_scene_free(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_equilibrium),
         cmocka_unit_test(test_inertia_makes_a_difference),
         cmocka_unit_test(test_mass_damping),
+        cmocka_unit_test(test_stiffness_damping),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -32,7 +32,7 @@ static cipc_step_report sample_report(int step)
                           .kinetic = 0.5,
                           .gravitational = -0.25,
                           .elastic = 0.125};
-    r.incremental = (cipc_energy_terms){1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 55, 1e-15};
+    r.incremental = (cipc_energy_terms){1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 66, 1e-15};
     for (int i = 0; i < CIPC_PHASE_COUNT; i++) {
         r.seconds[i] = 0.5 * (i + 1);
     }
@@ -109,11 +109,11 @@ static void test_every_field(void **state)
     assert_true(number(energy, "kinetic") == 0.5 && number(energy, "gravitational") == -0.25 && number(energy, "elastic") == 0.125);
     assert_true(number(energy, "total") == 0.375);
     const json_t *terms = json_object_get(line, "incremental_potential");
-    static const char *const names[] = {"inertia", "membrane", "bending", "strain_limit", "barrier", "friction", "penalty", "stretching", "volume", "stitches"};
-    for (int i = 0; i < 10; i++) {
+    static const char *const names[] = {"inertia", "membrane", "bending", "strain_limit", "barrier", "friction", "penalty", "damping", "stretching", "volume", "stitches"};
+    for (int i = 0; i < 11; i++) {
         assert_true(number(terms, names[i]) == i + 1);
     }
-    assert_true(number(terms, "total") == 55 && number(terms, "noise") == 1e-15);
+    assert_true(number(terms, "total") == 66 && number(terms, "noise") == 1e-15);
     const json_t *seconds = json_object_get(line, "seconds");
     for (int i = 0; i < CIPC_PHASE_COUNT; i++) {
         assert_true(number(seconds, cipc_phase_name((cipc_phase)i)) == 0.5 * (i + 1));
