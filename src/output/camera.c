@@ -5,6 +5,7 @@
 #include "base/vector.h"
 
 static const double field_of_view = 0.56;  /* rad, up: that of a moderate telephoto lens, which keeps proportions */
+static const double near_plane = 0.02;     /* of the distance */
 static const double air = 1.06;            /* distance factor that leaves a margin */
 
 cipc_bounds cipc_bounds_empty(void)
@@ -12,14 +13,14 @@ cipc_bounds cipc_bounds_empty(void)
     return (cipc_bounds){{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
 }
 
-void cipc_bounds_add(cipc_bounds *bounds, const double point[3])
+void cipc_bounds_add(cipc_bounds *bounds, const double center[3], double radius)
 {
-    if (!isfinite(point[0]) || !isfinite(point[1]) || !isfinite(point[2])) {
+    if (!isfinite(center[0]) || !isfinite(center[1]) || !isfinite(center[2])) {
         return;
     }
     for (int k = 0; k < 3; k++) {
-        bounds->lo[k] = fmin(bounds->lo[k], point[k]);
-        bounds->hi[k] = fmax(bounds->hi[k], point[k]);
+        bounds->lo[k] = fmin(bounds->lo[k], center[k] - radius);
+        bounds->hi[k] = fmax(bounds->hi[k], center[k] + radius);
     }
 }
 
@@ -50,14 +51,21 @@ cipc_camera cipc_camera_look(const cipc_bounds *bounds, double azimuth, double e
     return camera;
 }
 
-void cipc_camera_fit(cipc_camera *camera, const double point[3])
+/* Distance in front of the target from which a ball at `offset` beside the axis touches the side of a view of this slope. */
+static double distance_for(double offset, double radius, double slope)
 {
-    if (!isfinite(point[0]) || !isfinite(point[1]) || !isfinite(point[2])) {
+    return (fabs(offset) + radius * sqrt(1 + slope * slope)) / slope;
+}
+
+void cipc_camera_fit(cipc_camera *camera, const double center[3], double radius)
+{
+    if (!isfinite(center[0]) || !isfinite(center[1]) || !isfinite(center[2])) {
         return;
     }
     double q[3];
-    v3_sub(q, point, camera->target);
-    const double across = fabs(v3_dot(q, camera->right)) / camera->slope_x, upward = fabs(v3_dot(q, camera->up)) / camera->slope_y;
+    v3_sub(q, center, camera->target);
+    const double across = distance_for(v3_dot(q, camera->right), radius, camera->slope_x);
+    const double upward = distance_for(v3_dot(q, camera->up), radius, camera->slope_y);
     camera->distance = fmax(camera->distance, fmax(across, upward) + v3_dot(q, camera->back));
 }
 
@@ -67,6 +75,11 @@ void cipc_camera_settle(cipc_camera *camera, const cipc_bounds *bounds, double z
     camera->distance = fmax(camera->distance * air, least) / (zoom > 0 ? zoom : 1);
     v3_copy(camera->eye, camera->target);
     v3_axpy(camera->eye, camera->distance, camera->back);
+}
+
+double cipc_camera_nearest(const cipc_camera *camera)
+{
+    return near_plane * camera->distance;
 }
 
 void cipc_camera_see(const cipc_camera *camera, const double point[3], double seen[3])

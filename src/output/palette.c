@@ -39,3 +39,8 @@ double cipc_linear_to_srgb(double linear)
 {
     return linear <= 0.0031308 ? 12.92 * linear : 1.055 * pow(linear, 1 / 2.4) - 0.055;
 }
+
+cipc_colour cipc_colour_to_linear(cipc_colour srgb)
+{
+    return (cipc_colour){cipc_srgb_to_linear(srgb.r), cipc_srgb_to_linear(srgb.g), cipc_srgb_to_linear(srgb.b)};
+}

@@ -11,8 +11,9 @@ cipc_colour cipc_body_colour(const cipc_model *model, int body);
 /* sRGB colour of the i-th curve of a plot. */
 cipc_colour cipc_curve_colour(int i);
 
-/* IEC 61966-2-1 transfer function, per component. */
+/* IEC 61966-2-1 transfer function: of a component, of all three. */
 double cipc_srgb_to_linear(double encoded);
 double cipc_linear_to_srgb(double linear);
+cipc_colour cipc_colour_to_linear(cipc_colour srgb);
 
 #endif

@@ -3,6 +3,7 @@
 #include "output/camera.h"
 #include "output/png.h"
 #include "output/raster.h"
+#include "output/round_look.h"
 #include "output/shadow.h"
 #include "output/surface_look.h"
 
@@ -69,11 +70,17 @@ static cipc_status sheet_load(sheet *s, const char *trajectory_path, int frames,
     return CIPC_OK;
 }
 
+/* How far a body reaches around its nodes. */
+static double radius_of(const cipc_body *body)
+{
+    return body->kind == CIPC_BODY_RODS || body->kind == CIPC_BODY_PARTICLES ? body->material.thickness / 2 : 0;
+}
+
 static void add_body(const sheet *s, const cipc_body *body, cipc_bounds *bounds)
 {
     for (int i = 0; i < s->count; i++) {
         for (int n = body->first_node; n < body->first_node + body->node_count; n++) {
-            cipc_bounds_add(bounds, frame_positions(s, i) + 3 * n);
+            cipc_bounds_add(bounds, frame_positions(s, i) + 3 * n, radius_of(body));
         }
     }
 }
@@ -109,7 +116,7 @@ static void place_camera(sheet *s, const cipc_model *model, const cipc_picture_o
         const cipc_body *body = &model->bodies[b];
         for (int i = 0; i < s->count && is_subject(s, body, diagonal); i++) {
             for (int n = body->first_node; n < body->first_node + body->node_count; n++) {
-                cipc_camera_fit(&s->camera, frame_positions(s, i) + 3 * n);
+                cipc_camera_fit(&s->camera, frame_positions(s, i) + 3 * n, radius_of(body));
             }
         }
     }
@@ -131,9 +138,9 @@ static void draw_label(cairo_t *cr, double x, double y, double time)
 static bool draw_tiles(sheet *s, const cipc_model *model, const cipc_picture_options *options, cairo_surface_t *surface)
 {
     static const cipc_colour top = {0.965, 0.970, 0.978}, bottom = {0.855, 0.872, 0.895};
-    double light[3];
+    const cipc_lighting lighting = cipc_lighting_of(&s->camera);
+    const cipc_round_view round = cipc_round_view_of(&s->camera);
     bool good = true;
-    cipc_key_light(&s->camera, light);
     cairo_t *cr = cairo_create(surface);
     cairo_set_source_rgb(cr, 1, 1, 1);
     cairo_paint(cr);
@@ -141,8 +148,9 @@ static bool draw_tiles(sheet *s, const cipc_model *model, const cipc_picture_opt
         const int left = MARGIN + i % s->columns * (options->tile_width + MARGIN);
         const int upper = MARGIN + i / s->columns * (options->tile_height + MARGIN);
         cipc_raster_clear(&s->raster, top, bottom);
-        cipc_surface_draw(&s->raster, model, frame_positions(s, i), &s->camera, s->normals);
-        good = cipc_shadow_cast(&s->raster, model, frame_positions(s, i), &s->camera, &s->subject, light);
+        cipc_surface_draw(&s->raster, model, frame_positions(s, i), &s->camera, &lighting, s->normals);
+        cipc_round_draw(&s->raster, model, frame_positions(s, i), &round, &lighting);
+        good = cipc_shadow_cast(&s->raster, model, frame_positions(s, i), &s->camera, &s->subject, lighting.key);
         cipc_raster_resolve(&s->raster, surface, left, upper);
         draw_label(cr, left, upper, s->times[i]);
     }

@@ -1,4 +1,4 @@
-/* Triangles with a depth buffer: each sample keeps what is nearest to the eye. */
+/* Samples with a depth buffer, and triangles: each sample keeps what is nearest to the eye. */
 #include "output/raster.h"
 
 #include <math.h>
@@ -14,7 +14,8 @@ bool cipc_raster_init(cipc_raster *raster, int pixel_width, int pixel_height)
     const size_t samples = (size_t)raster->width * (size_t)raster->height;
     raster->depth = cipc_alloc(samples, sizeof raster->depth[0]);
     raster->light = cipc_alloc(samples, sizeof raster->light[0]);
-    if (raster->depth == NULL || raster->light == NULL) {
+    raster->key = cipc_alloc(samples, sizeof raster->key[0]);
+    if (raster->depth == NULL || raster->light == NULL || raster->key == NULL) {
         cipc_raster_free(raster);
         return false;
     }
@@ -25,8 +26,10 @@ void cipc_raster_free(cipc_raster *raster)
 {
     cipc_free(raster->depth);
     cipc_free(raster->light);
+    cipc_free(raster->key);
     raster->depth = NULL;
     raster->light = NULL;
+    raster->key = NULL;
 }
 
 void cipc_raster_clear(cipc_raster *raster, cipc_colour top, cipc_colour bottom)
@@ -39,6 +42,7 @@ void cipc_raster_clear(cipc_raster *raster, cipc_colour top, cipc_colour bottom)
         for (int x = 0; x < raster->width; x++) {
             const size_t at = (size_t)y * (size_t)raster->width + (size_t)x;
             raster->depth[at] = 0;
+            raster->key[at] = 0;
             raster->light[at][0] = r;
             raster->light[at][1] = g;
             raster->light[at][2] = b;
@@ -52,14 +56,10 @@ static double area2(const cipc_raster_corner *a, const cipc_raster_corner *b, do
     return (b->x - a->x) * (y - a->y) - (b->y - a->y) * (x - a->x);
 }
 
-static int first_sample(double lowest, int size)
+void cipc_raster_range(double lowest, double highest, int size, int *first, int *last)
 {
-    return lowest <= 0 ? 0 : lowest >= size ? size : (int)lowest;
-}
-
-static int last_sample(double highest, int size)
-{
-    return highest < 0 ? -1 : highest >= size ? size - 1 : (int)highest;
+    *first = lowest <= 0 ? 0 : lowest >= size ? size : (int)lowest;
+    *last = highest < 0 ? -1 : highest >= size ? size - 1 : (int)highest;
 }
 
 /* Distance of a sample with barycentric weights w to the nearest edge; altitude[i] is the distance of corner i from the edge across. */
@@ -68,14 +68,27 @@ static double edge_distance(const double w[3], const double altitude[3])
     return fmin(w[0] * altitude[0], fmin(w[1] * altitude[1], w[2] * altitude[2]));
 }
 
-static void put_sample(cipc_raster *raster, size_t at, double inverse_depth, double brightness, cipc_colour colour)
+void cipc_raster_put(cipc_raster *raster, int x, int y, double inverse_depth, cipc_shade shade, cipc_colour colour)
 {
+    const size_t at = (size_t)y * (size_t)raster->width + (size_t)x;
     if ((float)inverse_depth > raster->depth[at]) {
         raster->depth[at] = (float)inverse_depth;
-        raster->light[at][0] = (float)(brightness * colour.r);
-        raster->light[at][1] = (float)(brightness * colour.g);
-        raster->light[at][2] = (float)(brightness * colour.b);
+        raster->light[at][0] = (float)(shade.brightness * colour.r);
+        raster->light[at][1] = (float)(shade.brightness * colour.g);
+        raster->light[at][2] = (float)(shade.brightness * colour.b);
+        raster->key[at] = shade.brightness > 0 ? (float)(shade.key / shade.brightness) : 0;
     }
+}
+
+/* Weighted mean of the corners', times a factor. */
+static cipc_shade mean_shade(const cipc_raster_corner c[3], const double w[3], double factor)
+{
+    cipc_shade shade = {0, 0};
+    for (int i = 0; i < 3; i++) {
+        shade.brightness += factor * w[i] * c[i].shade.brightness;
+        shade.key += factor * w[i] * c[i].shade.key;
+    }
+    return shade;
 }
 
 void cipc_raster_triangle(cipc_raster *raster, const cipc_raster_corner c[3], cipc_colour colour, double ink)
@@ -89,10 +102,9 @@ void cipc_raster_triangle(cipc_raster *raster, const cipc_raster_corner c[3], ci
         const cipc_raster_corner *a = &c[(i + 1) % 3], *b = &c[(i + 2) % 3];
         altitude[i] = fabs(area) / hypot(b->x - a->x, b->y - a->y);
     }
-    const int left = first_sample(fmin(c[0].x, fmin(c[1].x, c[2].x)), raster->width);
-    const int right = last_sample(fmax(c[0].x, fmax(c[1].x, c[2].x)), raster->width);
-    const int top = first_sample(fmin(c[0].y, fmin(c[1].y, c[2].y)), raster->height);
-    const int bottom = last_sample(fmax(c[0].y, fmax(c[1].y, c[2].y)), raster->height);
+    int left, right, top, bottom;
+    cipc_raster_range(fmin(c[0].x, fmin(c[1].x, c[2].x)), fmax(c[0].x, fmax(c[1].x, c[2].x)), raster->width, &left, &right);
+    cipc_raster_range(fmin(c[0].y, fmin(c[1].y, c[2].y)), fmax(c[0].y, fmax(c[1].y, c[2].y)), raster->height, &top, &bottom);
     for (int y = top; y <= bottom; y++) {
         for (int x = left; x <= right; x++) {
             const double sx = x + 0.5, sy = y + 0.5;
@@ -102,11 +114,8 @@ void cipc_raster_triangle(cipc_raster *raster, const cipc_raster_corner c[3], ci
                 continue;
             }
             const double inverse_depth = w[0] * c[0].inverse_depth + w[1] * c[1].inverse_depth + w[2] * c[2].inverse_depth;
-            double brightness = w[0] * c[0].brightness + w[1] * c[1].brightness + w[2] * c[2].brightness;
-            if (ink > 0 && edge_distance(w, altitude) < half_line) {
-                brightness *= 1 - ink;
-            }
-            put_sample(raster, (size_t)y * (size_t)raster->width + (size_t)x, inverse_depth, brightness, colour);
+            const double white = ink > 0 && edge_distance(w, altitude) < half_line ? 1 - ink : 1;
+            cipc_raster_put(raster, x, y, inverse_depth, mean_shade(c, w, white), colour);
         }
     }
 }

@@ -1,12 +1,15 @@
-/* A shadow map: the surfaces drawn once more as the light sees them, in parallel projection, depths only. A sample of the picture is in
+/* A shadow map: everything drawn once more as the light sees them, in parallel projection, depths only. A sample of the picture is in
  * shadow if the map has something nearer to the light on its way. */
 #include "output/shadow.h"
 
 #include <math.h>
 #include "base/vector.h"
+#include "output/round_look.h"
 
 enum { MAP_PIXELS = 512, MAP_SAMPLES = MAP_PIXELS * CIPC_RASTER_SAMPLES };
-static const double shade = 0.62;        /* what is left of the light in a shadow */
+static const double taken = 0.7;         /* of the key light, by a shadow: the lamp is large and the sky bright */
+static const double depth_scale = 0.25;  /* keeps the map's depths of the subject, and of things up to four radii around, above 0 */
+static const double least_texels = 2;    /* width of a hair's shadow: thinner, it would be dotted */
 static const double slack_texels = 2.5;  /* how much nearer the map must be, in widths of its samples: else a surface shades itself */
 
 /* The light's view: u, v across, and w towards the light; a box around the subject is scaled to the unit square. */
@@ -37,9 +40,21 @@ static cipc_raster_corner in_map(const light_view *view, const double point[3])
     return (cipc_raster_corner){
         .x = MAP_SAMPLES * (0.5 + 0.5 * v3_dot(q, view->u) / view->radius),
         .y = MAP_SAMPLES * (0.5 + 0.5 * v3_dot(q, view->v) / view->radius),
-        .inverse_depth = 1 + 0.25 * v3_dot(q, view->w) / view->radius,
-        .brightness = 0,
+        .inverse_depth = 1 + depth_scale * v3_dot(q, view->w) / view->radius,
+        .shade = {0, 0},
     };
+}
+
+/* Rods and particles are drawn in the same coordinates; y is down there, so `up` is against v. */
+static cipc_round_view round_view(const light_view *view)
+{
+    cipc_round_view round = {.half_width = view->radius, .half_height = view->radius, .parallel = true, .nearest = -INFINITY,
+                             .fade = depth_scale / view->radius, .least_width = least_texels};
+    v3_copy(round.origin, view->center);
+    v3_copy(round.right, view->u);
+    v3_scale(round.up, -1, view->v);
+    v3_copy(round.back, view->w);
+    return round;
 }
 
 static void draw_map(light_view *view, const cipc_model *model, const double *position)
@@ -52,6 +67,8 @@ static void draw_map(light_view *view, const cipc_model *model, const double *po
         const cipc_raster_corner corners[3] = {in_map(view, a), in_map(view, b), in_map(view, c)};
         cipc_raster_triangle(&view->map, corners, none, 0);
     }
+    const cipc_round_view round = round_view(view);
+    cipc_round_draw(&view->map, model, position, &round, NULL);
 }
 
 /* The point of space that a sample of the picture shows. */
@@ -71,7 +88,7 @@ static bool in_shadow(const light_view *view, const double point[3])
         return false;
     }
     const double nearest = view->map.depth[(size_t)at.y * MAP_SAMPLES + (size_t)at.x];
-    const double slack = 0.25 * slack_texels * 2 / MAP_SAMPLES; /* a sample is 2 radius / MAP_SAMPLES wide */
+    const double slack = depth_scale * slack_texels * 2 / MAP_SAMPLES; /* a sample is 2 radius / MAP_SAMPLES wide */
     return nearest > at.inverse_depth + slack;
 }
 
@@ -93,7 +110,7 @@ bool cipc_shadow_cast(cipc_raster *raster, const cipc_model *model, const double
             double point[3];
             if (raster->depth[i] > 0) {
                 unproject(raster, camera, x, y, 1 / (double)raster->depth[i], point);
-                const double left = in_shadow(&view, point) ? shade : 1;
+                const double left = in_shadow(&view, point) ? 1 - taken * (double)raster->key[i] : 1;
                 for (int k = 0; k < 3; k++) {
                     raster->light[i][k] = (float)(left * raster->light[i][k]);
                 }

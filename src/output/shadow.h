@@ -6,8 +6,8 @@
 #include "output/camera.h"
 #include "output/raster.h"
 
-/* Darken the samples from which the way to the light is blocked by a surface. `light` is the unit vector towards the light. The
- * subject is what the bounds hold; shadows of things far outside it are left out. False: out of memory. */
+/* Take key light from the samples from which the way to the light is blocked by a surface, a rod or a particle. `light` is the unit vector
+ * towards the light. The subject is what the bounds hold; shadows of things far outside it are left out. False: out of memory. */
 bool cipc_shadow_cast(cipc_raster *raster, const cipc_model *model, const double *position, const cipc_camera *camera,
                       const cipc_bounds *bounds, const double light[3]);
 

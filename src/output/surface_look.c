@@ -5,11 +5,9 @@
 #include <string.h>
 #include "base/vector.h"
 
-static const double near_plane = 0.02;          /* of the camera's distance: nothing nearer is drawn */
 static const double crease_cosine = 0.64;       /* beyond 50 degrees between face and mean normal, an edge of the body is meant */
 static const double ink_from = 9, ink_full = 24; /* pixels: mean edge length at which mesh edges begin to show, and show fully */
 static const double ink_most = 0.38;
-static const double ambient_low = 0.20, ambient_high = 0.42, key_strength = 0.72, fill_strength = 0.16;
 
 /* Area-weighted mean normals at the nodes, of unit length where there is one. */
 static void node_normals(const cipc_model *model, const double *x, double *normals)
@@ -33,32 +31,15 @@ static void node_normals(const cipc_model *model, const double *x, double *norma
     }
 }
 
-void cipc_key_light(const cipc_camera *camera, double towards[3])
-{
-    for (int k = 0; k < 3; k++) {
-        towards[k] = -0.48 * camera->right[k] + 0.72 * camera->up[k] + 0.5 * camera->back[k];
-    }
-    v3_scale(towards, 1 / v3_norm(towards), towards);
-}
-
-/* Lambert's cosine law for a key light over the left shoulder and a weak fill light from the right, and a sky that is brighter than the
- * ground. n is turned to the eye, so both sides of a sheet are lit. All lights are white: a colour's hue survives. */
-static double brightness(const cipc_camera *camera, const double n[3])
-{
-    double key[3], fill[3];
-    cipc_key_light(camera, key);
-    for (int k = 0; k < 3; k++) {
-        fill[k] = 0.80 * camera->right[k] + 0.10 * camera->up[k] + 0.59 * camera->back[k];
-    }
-    const double sky = ambient_low + (ambient_high - ambient_low) * (0.5 + 0.5 * n[1]);
-    return sky + key_strength * fmax(0, v3_dot(n, key)) + fill_strength * fmax(0, v3_dot(n, fill));
-}
-
 /* Corner of a triangle in the camera's frame. */
-typedef struct corner { double seen[3], brightness; } corner;
+typedef struct corner {
+    double seen[3];
+    cipc_shade shade;
+} corner;
 
-/* False for a triangle without area. */
-static bool shade_corners(const double *x, const int v[3], const double *normals, const cipc_camera *camera, corner c[3])
+/* Normals are turned to the eye, so both sides of a sheet are lit. False for a triangle without area. */
+static bool shade_corners(const double *x, const int v[3], const double *normals, const cipc_camera *camera, const cipc_lighting *lighting,
+                          corner c[3])
 {
     double a[3], b[3], face[3], to_eye[3];
     v3_sub(a, x + 3 * v[1], x + 3 * v[0]);
@@ -76,7 +57,7 @@ static bool shade_corners(const double *x, const int v[3], const double *normals
         double n[3];
         v3_scale(n, side, v3_dot(mean, face) > crease_cosine ? mean : face);
         cipc_camera_see(camera, x + 3 * v[i], c[i].seen);
-        c[i].brightness = brightness(camera, n);
+        c[i].shade = cipc_shade_of(lighting, n);
     }
     return true;
 }
@@ -95,7 +76,8 @@ static int clip(const corner in[3], double z, corner out[4])
             for (int k = 0; k < 3; k++) {
                 out[count].seen[k] = a->seen[k] + t * (b->seen[k] - a->seen[k]);
             }
-            out[count++].brightness = a->brightness + t * (b->brightness - a->brightness);
+            out[count].shade.brightness = a->shade.brightness + t * (b->shade.brightness - a->shade.brightness);
+            out[count++].shade.key = a->shade.key + t * (b->shade.key - a->shade.key);
         }
     }
     return count;
@@ -108,7 +90,7 @@ static cipc_raster_corner project(const cipc_raster *raster, const cipc_camera *
         .x = raster->width * (0.5 + 0.5 * c->seen[0] * inverse_depth / camera->slope_x),
         .y = raster->height * (0.5 - 0.5 * c->seen[1] * inverse_depth / camera->slope_y),
         .inverse_depth = inverse_depth,
-        .brightness = c->brightness,
+        .shade = c->shade,
     };
 }
 
@@ -123,17 +105,17 @@ static double ink_of(double side)
     return ink_most * fmin(fmax((side - ink_from) / (ink_full - ink_from), 0), 1);
 }
 
-void cipc_surface_draw(cipc_raster *raster, const cipc_model *model, const double *position, const cipc_camera *camera, double *normals)
+void cipc_surface_draw(cipc_raster *raster, const cipc_model *model, const double *position, const cipc_camera *camera,
+                       const cipc_lighting *lighting, double *normals)
 {
     node_normals(model, position, normals);
     for (int t = 0; t < model->triangle_count; t++) {
-        const cipc_colour srgb = cipc_body_colour(model, model->triangle_body[t]);
-        const cipc_colour colour = {cipc_srgb_to_linear(srgb.r), cipc_srgb_to_linear(srgb.g), cipc_srgb_to_linear(srgb.b)};
+        const cipc_colour colour = cipc_colour_to_linear(cipc_body_colour(model, model->triangle_body[t]));
         corner seen[3], clipped[4];
-        if (!shade_corners(position, model->triangles[t], normals, camera, seen)) {
+        if (!shade_corners(position, model->triangles[t], normals, camera, lighting, seen)) {
             continue;
         }
-        const int count = clip(seen, near_plane * camera->distance, clipped);
+        const int count = clip(seen, cipc_camera_nearest(camera), clipped);
         for (int i = 2; i < count; i++) {
             const cipc_raster_corner fan[3] = {project(raster, camera, &clipped[0]), project(raster, camera, &clipped[i - 1]),
                                                project(raster, camera, &clipped[i])};

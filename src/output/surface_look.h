@@ -4,12 +4,11 @@
 
 #include "cipc/model.h"
 #include "output/camera.h"
+#include "output/lighting.h"
 #include "output/raster.h"
 
 /* Draw all triangles of the model. normals[3 * node_count] is scratch space. */
-void cipc_surface_draw(cipc_raster *raster, const cipc_model *model, const double *position, const cipc_camera *camera, double *normals);
-
-/* Unit vector towards the main light: over the viewer's left shoulder. */
-void cipc_key_light(const cipc_camera *camera, double towards[3]);
+void cipc_surface_draw(cipc_raster *raster, const cipc_model *model, const double *position, const cipc_camera *camera,
+                       const cipc_lighting *lighting, double *normals);
 
 #endif

@@ -19,14 +19,16 @@ static void test_bounds(void **state)
     cipc_bounds b = cipc_bounds_empty();
     assert_true(cipc_bounds_are_empty(&b));
     assert_true(cipc_bounds_diagonal(&b) == 0);
-    cipc_bounds_add(&b, (const double[3]){NAN, 0, 0});
-    cipc_bounds_add(&b, (const double[3]){0, INFINITY, 0});
+    cipc_bounds_add(&b, (const double[3]){NAN, 0, 0}, 0);
+    cipc_bounds_add(&b, (const double[3]){0, INFINITY, 0}, 0);
     assert_true(cipc_bounds_are_empty(&b));
-    cipc_bounds_add(&b, (const double[3]){1, 2, 3});
+    cipc_bounds_add(&b, (const double[3]){1, 2, 3}, 0);
     assert_false(cipc_bounds_are_empty(&b));
-    cipc_bounds_add(&b, (const double[3]){-2, 2, 7});
+    cipc_bounds_add(&b, (const double[3]){-2, 2, 7}, 0);
     assert_true(b.lo[0] == -2 && b.hi[0] == 1 && b.lo[2] == 3 && b.hi[2] == 7);
     assert_true(cipc_bounds_diagonal(&b) == 5);
+    cipc_bounds_add(&b, (const double[3]){0, 2, 4}, 1.5); /* a ball */
+    assert_true(b.lo[0] == -2 && b.hi[0] == 1.5 && b.lo[1] == 0.5 && b.hi[1] == 3.5 && b.lo[2] == 2.5 && b.hi[2] == 7);
 }
 
 static void test_frame(void **state)
@@ -58,9 +60,9 @@ static void test_everything_fitted_is_in_the_picture(void **state)
     for (int a = 0; a < 4; a++) {
         cipc_camera c = cipc_camera_look(&b, 0.6, 0.4, aspects[a]);
         for (int corner = 0; corner < 8; corner++) {
-            cipc_camera_fit(&c, (const double[3]){corner & 1 ? 1 : -1, corner & 2 ? 0.2 : -0.2, corner & 4 ? 3 : -3});
+            cipc_camera_fit(&c, (const double[3]){corner & 1 ? 1 : -1, corner & 2 ? 0.2 : -0.2, corner & 4 ? 3 : -3}, 0);
         }
-        cipc_camera_fit(&c, (const double[3]){NAN, 0, 0});
+        cipc_camera_fit(&c, (const double[3]){NAN, 0, 0}, 0);
         cipc_camera_settle(&c, &b, 1);
         double closest = 0;
         for (int corner = 0; corner < 8; corner++) {
@@ -77,13 +79,38 @@ static void test_everything_fitted_is_in_the_picture(void **state)
     }
 }
 
+/* Its rim included: the point of the ball that is farthest to a side, seen from the eye, is inside; and without the air it would touch. */
+static void test_a_ball_fitted_is_in_the_picture(void **state)
+{
+    (void)state;
+    const double center[3] = {0.3, 0.1, -0.2}, radius = 0.7;
+    cipc_bounds b = cipc_bounds_empty();
+    cipc_bounds_add(&b, (const double[3]){0, 0, 0}, 0.1);
+    cipc_camera c = cipc_camera_look(&b, 0.6, 0.4, 1.5);
+    cipc_camera_fit(&c, center, radius);
+    const double fitted = c.distance;
+    cipc_camera_settle(&c, &b, 1);
+    const double air = c.distance / fitted;
+    double seen[3];
+    cipc_camera_see(&c, center, seen);
+    for (int with_air = 0; with_air < 2; with_air++) {
+        const double depth = seen[2] - (with_air ? 0 : (air - 1) * fitted);
+        double inside = INFINITY; /* of the four side planes, each through the eye */
+        for (int side = 0; side < 4; side++) {
+            const double slope = side < 2 ? c.slope_x : c.slope_y, across = (side % 2 ? 1 : -1) * seen[side / 2];
+            inside = fmin(inside, (slope * depth - across) / sqrt(1 + slope * slope) - radius);
+        }
+        assert_true(with_air ? inside > 0.01 : fabs(inside) < rounding);
+    }
+}
+
 static void test_target_is_seen_in_the_middle_and_zoom_goes_nearer(void **state)
 {
     (void)state;
     const cipc_bounds b = {{0, 0, 0}, {1, 1, 1}};
     cipc_camera near = cipc_camera_look(&b, 1, 0.5, 1), far = near;
-    cipc_camera_fit(&near, b.hi);
-    cipc_camera_fit(&far, b.hi);
+    cipc_camera_fit(&near, b.hi, 0);
+    cipc_camera_fit(&far, b.hi, 0);
     cipc_camera_settle(&near, &b, 2);
     cipc_camera_settle(&far, &b, 1);
     assert_true(near.distance == far.distance / 2);
@@ -107,6 +134,7 @@ int main(void)
         cmocka_unit_test(test_bounds),
         cmocka_unit_test(test_frame),
         cmocka_unit_test(test_everything_fitted_is_in_the_picture),
+        cmocka_unit_test(test_a_ball_fitted_is_in_the_picture),
         cmocka_unit_test(test_target_is_seen_in_the_middle_and_zoom_goes_nearer),
         cmocka_unit_test(test_nothing_to_look_at),
     };

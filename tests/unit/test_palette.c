@@ -55,6 +55,8 @@ static void test_transfer_function(void **state)
     }
     assert_true(fabs(cipc_srgb_to_linear(1) - 1) < tolerance && cipc_srgb_to_linear(0) == 0);
     assert_true(fabs(cipc_srgb_to_linear(0.5) - 0.2140411) < tolerance); /* ((0.5 + 0.055)/1.055)^2.4 */
+    const cipc_colour linear = cipc_colour_to_linear((cipc_colour){0, 0.5, 1});
+    assert_true(linear.r == 0 && linear.g == cipc_srgb_to_linear(0.5) && linear.b == cipc_srgb_to_linear(1));
 }
 
 static void test_curves_differ(void **state)

@@ -13,7 +13,7 @@
 #include "cipc/output.h"
 #include "output/palette.h"
 #include "support/failing_memory.h"
-#include "support/sample_run.h"
+#include "support/every_kind.h"
 
 enum { TILE_WIDTH = 120, TILE_HEIGHT = 90, MARGIN = 6 };
 
@@ -95,6 +95,49 @@ static void test_every_tile_shows_every_body(void **state)
     folder_remove(&folder);
 }
 
+/* Cloth, strand, grains, block and fixed needles, each in its colour. */
+static void test_every_kind_is_shown(void **state)
+{
+    (void)state;
+    const path folder = folder_make(), h5 = path_in(&folder, "t.h5");
+    sample_run run = every_kind_create_all();
+    for (int b = 0; b < run.model->body_count; b++) {
+        run.model->bodies[b].material.thickness = 0.3;
+    }
+    write_trajectory(&h5, &run, 2);
+    cipc_picture_options options = small_options(2, 1);
+    options.azimuth = options.elevation = 0.2;
+    cairo_surface_t *surface = sheet(&folder, &h5, run.model, &options);
+    for (int tile = 0; tile < 2; tile++) {
+        for (int body = 0; body < run.model->body_count; body++) {
+            const int some = 20;
+            assert_true(pixels_of(surface, MARGIN + tile * (TILE_WIDTH + MARGIN), MARGIN, cipc_body_colour(run.model, body)) > some);
+        }
+    }
+    cairo_surface_destroy(surface);
+    sample_run_destroy(&run);
+    folder_remove(&folder);
+}
+
+/* Grains in one place, far larger than the distance between them: the camera stands back for the ball, and the ball fills the picture. */
+static void test_the_camera_leaves_room_for_diameters(void **state)
+{
+    (void)state;
+    const path folder = folder_make(), h5 = path_in(&folder, "t.h5");
+    const cipc_body_kind kind = CIPC_BODY_PARTICLES;
+    sample_run run = every_kind_create(&kind, 1, false);
+    run.model->bodies[0].material.thickness = 40;
+    write_trajectory(&h5, &run, 1);
+    const cipc_picture_options options = small_options(1, 1);
+    cairo_surface_t *surface = sheet(&folder, &h5, run.model, &options);
+    const double disc = 3.14159 / 4 * TILE_HEIGHT * TILE_HEIGHT;
+    const int shown = pixels_of(surface, MARGIN, MARGIN, cipc_body_colour(run.model, 0));
+    assert_true(shown > 0.7 * disc && shown < 1.02 * disc);
+    cairo_surface_destroy(surface);
+    sample_run_destroy(&run);
+    folder_remove(&folder);
+}
+
 /* Fewer frames than tiles: no empty tiles. One frame: one tile. */
 static void test_few_frames(void **state)
 {
@@ -170,6 +213,8 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_tile_shows_every_body),
+        cmocka_unit_test(test_every_kind_is_shown),
+        cmocka_unit_test(test_the_camera_leaves_room_for_diameters),
         cmocka_unit_test(test_few_frames),
         cmocka_unit_test(test_poor_positions),
         cmocka_unit_test(test_errors),

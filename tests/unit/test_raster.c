@@ -27,7 +27,7 @@ static void triangle(cipc_raster *r, const double xy[6], double inverse_depth, d
 {
     cipc_raster_corner c[3];
     for (int i = 0; i < 3; i++) {
-        c[i] = (cipc_raster_corner){xy[2 * i], xy[2 * i + 1], inverse_depth, brightness};
+        c[i] = (cipc_raster_corner){xy[2 * i], xy[2 * i + 1], inverse_depth, {brightness, 0}};
     }
     cipc_raster_triangle(r, c, colour, ink);
 }
@@ -88,11 +88,12 @@ static void test_brightness_is_interpolated(void **state)
 {
     (void)state;
     cipc_raster r = fresh();
-    const cipc_raster_corner c[3] = {{0, 0, 1, 0}, {2 * SAMPLES, 0, 1, 1}, {0, 2 * SAMPLES, 1, 0}};
+    const cipc_raster_corner c[3] = {{0, 0, 1, {0, 0}}, {2 * SAMPLES, 0, 1, {1, 0.25}}, {0, 2 * SAMPLES, 1, {0, 0}}};
     cipc_raster_triangle(&r, c, white, 0);
     for (int x = 0; x < SAMPLES; x++) {
         const double rounding_of_float = 1e-6;
         assert_true(fabs(light_at(&r, x, 3)[0] - (x + 0.5) / (2 * SAMPLES)) < rounding_of_float);
+        assert_true(fabs((double)r.key[3 * r.width + x] - 0.25) < rounding_of_float); /* the same share everywhere */
     }
     cipc_raster_free(&r);
 }
@@ -107,6 +108,25 @@ static void test_ink_marks_edges_only(void **state)
     assert_true(light_at(&r, 0, SAMPLES / 4)[0] == 0.5F);
     assert_true(light_at(&r, SAMPLES / 4, SAMPLES / 4)[0] == 1);
     cipc_raster_free(&r);
+}
+
+/* Ranges of samples: what the interval touches, within the raster; none at all where there is nothing. */
+static void test_ranges(void **state)
+{
+    (void)state;
+    const struct { double lowest, highest; int first, last; } cases[] = {{0.5, 2.5, 0, 2}, {-3, 1, 0, 1}, {7.9, 99, 7, 9}, {3.2, 3.3, 3, 3}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        int first, last;
+        cipc_raster_range(cases[i].lowest, cases[i].highest, 10, &first, &last);
+        assert_int_equal(first, cases[i].first);
+        assert_int_equal(last, cases[i].last);
+    }
+    const double outside[][2] = {{-5, -1}, {10, 12}, {1e300, 2e300}, {-2e300, -1e300}};
+    for (size_t i = 0; i < sizeof outside / sizeof outside[0]; i++) {
+        int first, last;
+        cipc_raster_range(outside[i][0], outside[i][1], 10, &first, &last);
+        assert_true(first > last);
+    }
 }
 
 /* Half the samples of a pixel black, half white: the average is of light, not of code values. */
@@ -151,11 +171,12 @@ static void test_out_of_memory(void **state)
 {
     (void)state;
     cipc_raster r;
-    for (long n = 1; n <= 2; n++) {
+    for (long n = 1; n <= 3; n++) {
         fail_allocation(n);
         assert_false(cipc_raster_init(&r, SIZE, SIZE));
         assert_null(r.depth);
         assert_null(r.light);
+        assert_null(r.key);
     }
     fail_allocation(0);
 }
@@ -168,6 +189,7 @@ int main(void)
         cmocka_unit_test(test_what_cannot_be_seen),
         cmocka_unit_test(test_brightness_is_interpolated),
         cmocka_unit_test(test_ink_marks_edges_only),
+        cmocka_unit_test(test_ranges),
         cmocka_unit_test(test_resolve_averages_light),
         cmocka_unit_test(test_gradient),
         cmocka_unit_test(test_out_of_memory),

@@ -18,17 +18,18 @@ static cipc_raster seen_from(const sample_run *run, double elevation, double zoo
     cipc_raster r;
     cipc_bounds bounds = cipc_bounds_empty();
     for (int i = 0; i < run->model->node_count; i++) {
-        cipc_bounds_add(&bounds, run->state->position + 3 * i);
+        cipc_bounds_add(&bounds, run->state->position + 3 * i, 0);
     }
     cipc_camera camera = cipc_camera_look(&bounds, 0, elevation, 1);
     for (int i = 0; i < run->model->node_count; i++) {
-        cipc_camera_fit(&camera, run->state->position + 3 * i);
+        cipc_camera_fit(&camera, run->state->position + 3 * i, 0);
     }
     cipc_camera_settle(&camera, &bounds, zoom);
     double *normals = calloc(3 * (size_t)run->model->node_count, sizeof *normals);
     assert_true(cipc_raster_init(&r, SIZE, SIZE));
     cipc_raster_clear(&r, (cipc_colour){0, 0, 0}, (cipc_colour){0, 0, 0});
-    cipc_surface_draw(&r, run->model, run->state->position, &camera, normals);
+    const cipc_lighting lighting = cipc_lighting_of(&camera);
+    cipc_surface_draw(&r, run->model, run->state->position, &camera, &lighting, normals);
     free(normals);
     return r;
 }
