@@ -65,10 +65,13 @@ typedef struct cipc_step_invariants {
     long momentum_checks;           /* 1: the step's change of momentum was looked at (M7) */
     double momentum_change;         /* kg m/s */
     cipc_invariant_report worst;    /* smallest gap, largest stretch; counters are sums */
+    double max_segment_stretch;     /* largest length of a rod's segment by its rest length, in double arithmetic; 0: none */
 } cipc_step_invariants;
 cipc_step_invariants cipc_step_invariants_none(void);
 /* Take in the report of one more point. */
 void cipc_step_invariants_add(cipc_step_invariants *step, const cipc_invariant_report *report);
+/* Take in the lengths of the segments at that point, of bodies that are not fixed. */
+void cipc_step_invariants_add_segments(cipc_step_invariants *step, const cipc_model *model, const double *position);
 
 /* One line of stats.jsonl, flushed: the step that led to *state. invariants may be NULL (monitors off): its fields are then null. */
 cipc_status cipc_stats_write(FILE *file, const cipc_state *state, const cipc_step_report *report, const cipc_step_invariants *invariants,
@@ -88,7 +91,8 @@ typedef struct cipc_run_summary {
     bool monitored;                 /* every step */
     bool swept;                     /* the paths between accepted points too (M5) */
     int limited_triangles;          /* of bodies with a strain limit: M3 has something to look at */
-    int tetrahedra;                 /* M4 has */
+    int bodies, nodes, triangles, segments, particles; /* of the model */
+    int tetrahedra;                 /* likewise; M4 has something to look at */
     const char *momentum_source;    /* why M7 has nothing to say, or NULL */
     int bodies_apart;               /* pairs of bodies that the scene lets pass through each other */
     int stitches;
@@ -98,7 +102,7 @@ typedef struct cipc_run_summary {
     double max_momentum_change;     /* kg m/s, in such a step */
     long newton_iterations, line_search_halvings, friction_passes, symbolic_analyses, factorizations;
     int max_contacts, max_newton_iterations;
-    double min_gap, max_stretch, max_stretch_ratio;
+    double min_gap, max_stretch, max_stretch_ratio, max_segment_stretch;
     long exact_gap_checks, exact_strain_checks, exact_path_checks, paths_checked;
     double seconds;                 /* of wall clock, in all */
     double output_seconds, seconds_by_phase[CIPC_PHASE_COUNT];
@@ -110,6 +114,8 @@ typedef struct cipc_run_summary {
 } cipc_run_summary;
 /* Zeroes, with the extremes (min_gap INFINITY, resumed_from -1) where an empty run has them. */
 cipc_run_summary cipc_run_summary_default(void);
+/* The counts of the model. */
+void cipc_run_summary_of_model(cipc_run_summary *summary, const cipc_model *model);
 /* Add what one step did; invariants NULL: not monitored. */
 void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *report, const cipc_step_invariants *invariants);
 
@@ -141,8 +147,8 @@ cipc_picture_options cipc_picture_options_default(void);
 cipc_status cipc_frames_png(const char *path, const char *trajectory_path, const cipc_model *model, const cipc_picture_options *options,
                             cipc_error *error);
 
-/* Four plots over time from stats.jsonl: gap minus thickness (log), largest stretch against its limit (0: none), energies, Newton
- * iterations. */
+/* Four plots over time from stats.jsonl: gap minus thickness (log), largest stretch of triangles against its limit (0: none) and of
+ * segments, energies, Newton iterations. */
 cipc_status cipc_plots_png(const char *path, const char *stats_path, double strain_limit, double dhat, cipc_error *error);
 
 #endif

@@ -215,7 +215,7 @@ static void begin_summary(cipc_simulation *s)
     s->summary.steps_asked = scene->steps;
     s->summary.monitored = s->request->monitor;
     s->summary.swept = s->request->monitor && scene->monitor_swept;
-    s->summary.tetrahedra = scene->model->tetrahedron_count;
+    cipc_run_summary_of_model(&s->summary, scene->model);
     s->summary.momentum_source = momentum_source(scene);
     s->summary.bodies_apart = count_apart(scene->model);
     s->summary.stitches = scene->model->stitch_count;

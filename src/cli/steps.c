@@ -72,6 +72,7 @@ static cipc_status check_point(cipc_simulation *s, const cipc_accepted_point *po
         memcpy(s->previous, point->x, 3 * (size_t)s->scene->model->node_count * sizeof *point->x);
     }
     cipc_step_invariants_add(&s->seen, &report);
+    cipc_step_invariants_add_segments(&s->seen, s->scene->model, point->x);
     return status == CIPC_OK ? CIPC_OK : report_violation(s, point, &report, error);
 }
 
@@ -163,8 +164,9 @@ static void show_progress(const cipc_simulation *s, const cipc_step_report *repo
     const int step = s->scene->state->step, done = step - s->first_step;
     const double left = done > 0 ? (cipc_clock() - s->begin) / done * (s->scene->steps - step) : NAN;
     const bool monitored = s->monitor != NULL;
+    const double stretch = fmax(s->seen.worst.max_stretch, s->seen.max_segment_stretch);
     cipc_progress_line(stderr, step, s->scene->steps, s->scene->state->time, report->newton_iterations, report->contacts,
-                       monitored ? s->seen.worst.min_gap : report->min_gap, monitored ? s->seen.worst.max_stretch : NAN, left);
+                       monitored ? s->seen.worst.min_gap : report->min_gap, monitored ? stretch : NAN, left);
 }
 
 static cipc_status take_step(cipc_simulation *s)

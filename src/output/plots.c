@@ -12,7 +12,7 @@ enum { WIDTH = 1200, HEIGHT = 800, PANEL_WIDTH = 490, PANEL_HEIGHT = 280 }; /* p
 static const double panel_left[2] = {82, 682}, panel_top[2] = {48, 440};
 
 /* Columns of numbers, one row per step. */
-typedef enum column { TIME, GAP, STRETCH, KINETIC, GRAVITATIONAL, ELASTIC, TOTAL, NEWTON, COLUMN_COUNT } column;
+typedef enum column { TIME, GAP, STRETCH, SEGMENT_STRETCH, KINETIC, GRAVITATIONAL, ELASTIC, TOTAL, NEWTON, COLUMN_COUNT } column;
 typedef struct table {
     int count, capacity;
     double *values[COLUMN_COUNT];
@@ -45,13 +45,15 @@ static bool table_reserve(table *t)
 static void add_row(table *t, const json_t *line)
 {
     static const char *const keys[COLUMN_COUNT] = {
-        [TIME] = "time", [GAP] = "min_gap", [STRETCH] = "max_stretch", [KINETIC] = "kinetic", [GRAVITATIONAL] = "gravitational",
-        [ELASTIC] = "elastic", [TOTAL] = "total", [NEWTON] = "newton_iterations",
+        [TIME] = "time", [GAP] = "min_gap", [STRETCH] = "max_stretch", [SEGMENT_STRETCH] = "max_segment_stretch",
+        [KINETIC] = "kinetic", [GRAVITATIONAL] = "gravitational", [ELASTIC] = "elastic", [TOTAL] = "total", [NEWTON] = "newton_iterations",
     };
     const json_t *energy = json_object_get(line, "energy");
     for (int c = 0; c < COLUMN_COUNT; c++) {
         const bool is_energy = c >= KINETIC && c <= TOTAL;
-        t->values[c][t->count] = cipc_json_double(json_object_get(is_energy ? energy : line, keys[c]));
+        const double value = cipc_json_double(json_object_get(is_energy ? energy : line, keys[c]));
+        const bool of_nothing = (c == STRETCH || c == SEGMENT_STRETCH) && value == 0; /* no triangle, no segment: nothing to plot */
+        t->values[c][t->count] = of_nothing ? (double)NAN : value;
     }
     t->count++;
 }
@@ -119,20 +121,35 @@ static void draw_gap(const table *t, cairo_t *cr, double dhat)
     cipc_axes_curve(&axes, cr, t->values[TIME], t->values[GAP], t->count, cipc_curve_colour(0), "gap");
 }
 
+static bool any_number(const table *t, column c)
+{
+    for (int i = 0; i < t->count; i++) {
+        if (isfinite(t->values[c][i])) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static void draw_stretch(const table *t, cairo_t *cr, double strain_limit)
 {
-    const column columns[] = {STRETCH};
-    cipc_axes axes = panel(t, 1, 0, false, columns, 1);
+    const column columns[] = {STRETCH, SEGMENT_STRETCH};
+    cipc_axes axes = panel(t, 1, 0, false, columns, 2);
     include_level(&axes, 1);
     if (strain_limit > 0) {
         include_level(&axes, strain_limit);
     }
     cipc_axes_settle(&axes);
-    cipc_axes_draw(&axes, cr, "Largest principal stretch", "time [s]", "[1]");
+    cipc_axes_draw(&axes, cr, "Largest stretch", "time [s]", "[1]");
     if (strain_limit > 0) {
         cipc_axes_level(&axes, cr, strain_limit, cipc_curve_colour(1), "limit");
     }
-    cipc_axes_curve(&axes, cr, t->values[TIME], t->values[STRETCH], t->count, cipc_curve_colour(0), "stretch");
+    if (any_number(t, SEGMENT_STRETCH)) {
+        cipc_axes_curve(&axes, cr, t->values[TIME], t->values[SEGMENT_STRETCH], t->count, cipc_curve_colour(2), "rods");
+    }
+    if (any_number(t, STRETCH)) {
+        cipc_axes_curve(&axes, cr, t->values[TIME], t->values[STRETCH], t->count, cipc_curve_colour(0), "triangles");
+    }
 }
 
 static void draw_energies(const table *t, cairo_t *cr)

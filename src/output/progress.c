@@ -22,15 +22,20 @@ static void format_duration(char *text, size_t size, double seconds)
 void cipc_progress_line(FILE *terminal, int step, int steps, double time, int newton_iterations, int contacts, double min_gap,
                         double max_stretch, double seconds_left)
 {
-    char left[32], gap[32];
+    char left[32], gap[32], stretch[32];
     format_duration(left, sizeof left, seconds_left);
     if (isfinite(min_gap)) {
         snprintf(gap, sizeof gap, "%.2e m", min_gap);
     } else {
         snprintf(gap, sizeof gap, "-");
     }
-    fprintf(terminal, "\r\033[Kstep %d/%d  t %.4g s  newton %d  contacts %d  gap %s  stretch %.4f  left %s", step, steps, time,
-            newton_iterations, contacts, gap, max_stretch, left);
+    if (max_stretch > 0) {
+        snprintf(stretch, sizeof stretch, "%.4f", max_stretch);
+    } else { /* nothing that could be stretched, or nobody looked */
+        snprintf(stretch, sizeof stretch, "-");
+    }
+    fprintf(terminal, "\r\033[Kstep %d/%d  t %.4g s  newton %d  contacts %d  gap %s  stretch %s  left %s", step, steps, time,
+            newton_iterations, contacts, gap, stretch, left);
     fflush(terminal);
 }
 

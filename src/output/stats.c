@@ -40,6 +40,23 @@ void cipc_step_invariants_add(cipc_step_invariants *step, const cipc_invariant_r
     worst->crossings_checked += report->crossings_checked;
 }
 
+static double distance(const double *a, const double *b)
+{
+    return hypot(hypot(b[0] - a[0], b[1] - a[1]), b[2] - a[2]);
+}
+
+void cipc_step_invariants_add_segments(cipc_step_invariants *step, const cipc_model *model, const double *position)
+{
+    for (int i = 0; i < model->segment_count; i++) {
+        const int *v = model->edges[model->first_segment + i];
+        if (!model->bodies[model->node_body[v[0]]].fixed) {
+            const double rest = distance(model->rest + 3 * v[0], model->rest + 3 * v[1]);
+            const double length = distance(position + 3 * v[0], position + 3 * v[1]);
+            step->max_segment_stretch = fmax(step->max_segment_stretch, length / rest);
+        }
+    }
+}
+
 /* ---- One table for both directions ---------------------------------------------------------------------------------------- */
 
 typedef enum field_type { INTEGER, LONG_INTEGER, REAL } field_type;
@@ -70,6 +87,7 @@ static const field monitor_fields[] = {
     MONITOR_FIELD("max_stretch", worst.max_stretch, REAL),
     MONITOR_FIELD("max_stretch_triangle", worst.max_stretch_triangle, INTEGER),
     MONITOR_FIELD("max_stretch_ratio", worst.max_stretch_ratio, REAL),
+    MONITOR_FIELD("max_segment_stretch", max_segment_stretch, REAL),
     MONITOR_FIELD("points_checked", points, LONG_INTEGER),
     MONITOR_FIELD("energy_checks", energy_checks, LONG_INTEGER),
     MONITOR_FIELD("momentum_checks", momentum_checks, LONG_INTEGER),

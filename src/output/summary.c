@@ -1,6 +1,7 @@
 /* summary.json: what a run did and what may be claimed of it. */
 #include "cipc/output.h"
 #include "output/atomic_file.h"
+#include "output/particles.h"
 #include "base/json_number.h"
 #include "output/versions.h"
 
@@ -14,6 +15,16 @@ cipc_run_summary cipc_run_summary_default(void)
     summary.monitored = true;
     summary.min_gap = INFINITY;
     return summary;
+}
+
+void cipc_run_summary_of_model(cipc_run_summary *summary, const cipc_model *model)
+{
+    summary->bodies = model->body_count;
+    summary->nodes = model->node_count;
+    summary->triangles = model->triangle_count;
+    summary->segments = model->segment_count;
+    summary->particles = cipc_particle_count(model);
+    summary->tetrahedra = model->tetrahedron_count;
 }
 
 void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *report, const cipc_step_invariants *invariants)
@@ -42,6 +53,7 @@ void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *rep
     summary->min_gap = fmin(summary->min_gap, invariants->worst.min_gap);
     summary->max_stretch = fmax(summary->max_stretch, invariants->worst.max_stretch);
     summary->max_stretch_ratio = fmax(summary->max_stretch_ratio, invariants->worst.max_stretch_ratio);
+    summary->max_segment_stretch = fmax(summary->max_segment_stretch, invariants->max_segment_stretch);
     summary->exact_gap_checks += invariants->worst.exact_gap_checks;
     summary->exact_strain_checks += invariants->worst.exact_strain_checks;
     summary->exact_path_checks += invariants->worst.exact_path_checks;
@@ -139,6 +151,18 @@ static json_t *scene_object(const cipc_run_summary *summary, bool *good)
     return object;
 }
 
+static json_t *model_object(const cipc_run_summary *summary, bool *good)
+{
+    json_t *object = json_object();
+    cipc_json_put(object, "bodies", json_integer(summary->bodies), good);
+    cipc_json_put(object, "nodes", json_integer(summary->nodes), good);
+    cipc_json_put(object, "triangles", json_integer(summary->triangles), good);
+    cipc_json_put(object, "segments", json_integer(summary->segments), good);
+    cipc_json_put(object, "particles", json_integer(summary->particles), good);
+    cipc_json_put(object, "tetrahedra", json_integer(summary->tetrahedra), good);
+    return object;
+}
+
 static json_t *invariants_object(const cipc_run_summary *summary, bool *good)
 {
     json_t *object = json_object();
@@ -174,6 +198,7 @@ static json_t *extremes_object(const cipc_run_summary *summary, bool *good)
     cipc_json_put(object, "min_gap", summary->monitored ? cipc_json_number(summary->min_gap) : json_null(), good);
     cipc_json_put(object, "max_stretch", summary->monitored ? cipc_json_number(summary->max_stretch) : json_null(), good);
     cipc_json_put(object, "max_stretch_ratio", summary->monitored ? cipc_json_number(summary->max_stretch_ratio) : json_null(), good);
+    cipc_json_put(object, "max_segment_stretch", summary->monitored ? cipc_json_number(summary->max_segment_stretch) : json_null(), good);
     cipc_json_put(object, "max_momentum_change", summary->momentum_checks > 0 ? cipc_json_number(summary->max_momentum_change) : json_null(), good);
     cipc_json_put(object, "max_contacts", json_integer(summary->max_contacts), good);
     cipc_json_put(object, "max_newton_iterations", json_integer(summary->max_newton_iterations), good);
@@ -223,6 +248,7 @@ static json_t *summary_object(const cipc_run_summary *summary, bool *good)
 {
     json_t *object = json_object();
     put_outcome(object, summary, good);
+    cipc_json_put(object, "model", model_object(summary, good), good);
     cipc_json_put(object, "invariants", invariants_object(summary, good), good);
     cipc_json_put(object, "monitors", monitors_object(summary, good), good);
     cipc_json_put(object, "extremes", extremes_object(summary, good), good);

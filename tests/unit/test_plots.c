@@ -33,8 +33,8 @@ static void write_stats(const path *file, int steps)
     sample_run_destroy(&run);
 }
 
-/* Number of pixels of the first curve's colour inside the box of panel 0..3. */
-static int curve_pixels(const path *png, int panel)
+/* Number of pixels of a colour inside the box of panel 0..3. */
+static int pixels_of(const path *png, int panel, uint32_t colour)
 {
     cairo_surface_t *surface = cairo_image_surface_create_from_png(png->text);
     assert_int_equal(cairo_surface_status(surface), CAIRO_STATUS_SUCCESS);
@@ -46,11 +46,18 @@ static int curve_pixels(const path *png, int panel)
     for (int y = top; y < top + 280; y++) {
         for (int x = left; x < left + 490; x++) {
             const uint32_t p = *(const uint32_t *)(const void *)(data + y * stride + 4 * x);
-            count += (p & 0xffffff) == 0x2f7fb5;
+            count += (p & 0xffffff) == colour;
         }
     }
     cairo_surface_destroy(surface);
     return count;
+}
+
+enum { FIRST_CURVE = 0x2f7fb5, RODS_CURVE = 0x3f9b6c };
+
+static int curve_pixels(const path *png, int panel)
+{
+    return pixels_of(png, panel, FIRST_CURVE);
 }
 
 static void test_every_panel_has_its_curve(void **state)
@@ -65,6 +72,28 @@ static void test_every_panel_has_its_curve(void **state)
         for (int panel = 0; panel < 4; panel++) {
             assert_true(curve_pixels(&png, panel) > 3);
         }
+    }
+    folder_remove(&folder);
+}
+
+/* What the scene does not have is not plotted, least of all as 0; what it has is. */
+static void test_stretch_of_triangles_and_rods(void **state)
+{
+    (void)state;
+    cipc_error error;
+    const path folder = folder_make(), stats = path_in(&folder, "stats.jsonl"), png = path_in(&folder, "plots.png");
+    for (int has = 0; has < 4; has++) {
+        const bool triangles = has & 1, rods = has & 2;
+        FILE *out = fopen(stats.text, "w");
+        for (int i = 1; i < 9; i++) {
+            fprintf(out, "{\"time\":%d,\"max_stretch\":%g,\"max_segment_stretch\":%g}\n", i, triangles ? 1 + 0.01 * i : 0,
+                    rods ? 1.1 - 0.01 * i : 0);
+        }
+        fclose(out);
+        assert_int_equal(cipc_plots_png(png.text, stats.text, triangles ? 1.2 : 0, 1e-3, &error), CIPC_OK);
+        const int blue = curve_pixels(&png, 1), green = pixels_of(&png, 1, RODS_CURVE);
+        assert_true(triangles ? blue > 100 : blue == 0);
+        assert_true(rods ? green > 100 : green == 0);
     }
     folder_remove(&folder);
 }
@@ -138,6 +167,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_every_panel_has_its_curve),
+        cmocka_unit_test(test_stretch_of_triangles_and_rods),
         cmocka_unit_test(test_odd_statistics),
         cmocka_unit_test(test_broken_last_line),
         cmocka_unit_test(test_errors),

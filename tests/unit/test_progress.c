@@ -53,6 +53,9 @@ static void test_odd_numbers(void **state)
     assert_shows(&l, "left 1:02:06");
     l = shown(1e-3, NAN, NAN);
     assert_shows(&l, "left -");
+    assert_shows(&l, "stretch -");
+    l = shown(1e-3, 0, 1); /* nothing that could be stretched */
+    assert_shows(&l, "stretch -");
     l = shown(1e-3, 1, INFINITY);
     assert_shows(&l, "left -");
     l = shown(1e-3, 1, -1);

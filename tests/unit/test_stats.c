@@ -12,7 +12,7 @@
 #include <string.h>
 
 #include "cipc/output.h"
-#include "support/sample_run.h"
+#include "support/every_kind.h"
 
 /* A report whose fields all differ. */
 static cipc_step_report sample_report(int step)
@@ -49,6 +49,7 @@ static cipc_step_invariants sample_invariants(void)
     v.energy_checks = 1;
     v.momentum_checks = 1;
     v.momentum_change = 1e-12;
+    v.max_segment_stretch = 1.25;
     return v;
 }
 
@@ -90,7 +91,7 @@ static void test_every_field(void **state)
         {"step", 1}, {"time", 0.01}, {"newton_iterations", 3}, {"line_search_halvings", 1}, {"friction_passes", 2}, {"factorizations", 4},
         {"symbolic_analyses", 5}, {"contacts", 6}, {"max_contacts", 7}, {"residual", 1.0 / 3}, {"barrier_stiffness", 1e3},
         {"strain_stiffness_factor", 2}, {"solver_min_gap", 1e-5}, {"min_gap", 2e-5}, {"max_stretch", 1.05}, {"max_stretch_triangle", 6},
-        {"max_stretch_ratio", 0.8}, {"points_checked", 1}, {"energy_checks", 1}, {"momentum_checks", 1}, {"momentum_change", 1e-12}, {"exact_gap_checks", 4}, {"exact_strain_checks", 5}, {"paths_checked", 8}, {"exact_path_checks", 9},
+        {"max_stretch_ratio", 0.8}, {"max_segment_stretch", 1.25}, {"points_checked", 1}, {"energy_checks", 1}, {"momentum_checks", 1}, {"momentum_change", 1e-12}, {"exact_gap_checks", 4}, {"exact_strain_checks", 5}, {"paths_checked", 8}, {"exact_path_checks", 9},
         {"pairs_checked", 60}, {"crossings_checked", 7},
     };
     enum { SCALARS = sizeof expected / sizeof expected[0], OTHERS = 5 }; /* converged, min_gap_nodes and three objects */
@@ -168,6 +169,32 @@ static void test_worst_of_several_points(void **state)
     assert_int_equal(v.worst.exact_gap_checks, 4);
 }
 
+/* The strand's middle segment, twice as long: of fixed needles nothing is said, of no segments 0. */
+static void test_stretch_of_segments(void **state)
+{
+    (void)state;
+    sample_run run = every_kind_create_all(), shells = sample_run_create();
+    cipc_step_invariants v = cipc_step_invariants_none();
+    double *x = run.state->position;
+    cipc_step_invariants_add_segments(&v, run.model, x);
+    assert_true(v.max_segment_stretch == 1);
+    x[3 * 15] -= 10; /* an end of a needle */
+    for (int n = 6; n < 8; n++) {
+        x[3 * n] += 0.3; /* nodes 5 and 6 are (0.3, 0, 0.3) apart */
+        x[3 * n + 2] += 0.3;
+    }
+    cipc_step_invariants_add_segments(&v, run.model, x);
+    const double rounding = 1e-15;
+    assert_true(fabs(v.max_segment_stretch - 2) < 4 * rounding);
+    cipc_step_invariants_add_segments(&v, run.model, run.model->rest); /* the largest stays */
+    assert_true(fabs(v.max_segment_stretch - 2) < 4 * rounding);
+    v = cipc_step_invariants_none();
+    cipc_step_invariants_add_segments(&v, shells.model, shells.state->position);
+    assert_true(v.max_segment_stretch == 0);
+    sample_run_destroy(&run);
+    sample_run_destroy(&shells);
+}
+
 static void test_full_device(void **state)
 {
     (void)state;
@@ -219,6 +246,7 @@ static void test_cut_keeps_the_bytes_and_adds_up(void **state)
     assert_int_equal(summary.exact_strain_checks, 15);
     assert_true(summary.monitored && summary.converged);
     assert_true(summary.min_gap == 2e-5 && summary.max_stretch == 1.05 && summary.max_stretch_ratio == 0.8);
+    assert_true(summary.max_segment_stretch == 1.25);
     assert_true(summary.seconds_by_phase[0] == 1.5);
     assert_true(summary.seconds == 3 * 0.25 * CIPC_PHASE_COUNT * (CIPC_PHASE_COUNT + 1));
     free(three);
@@ -282,6 +310,7 @@ int main(void)
         cmocka_unit_test(test_values_that_json_has_no_number_for),
         cmocka_unit_test(test_without_monitors_fields_are_null),
         cmocka_unit_test(test_worst_of_several_points),
+        cmocka_unit_test(test_stretch_of_segments),
         cmocka_unit_test(test_full_device),
         cmocka_unit_test(test_cut_keeps_the_bytes_and_adds_up),
         cmocka_unit_test(test_broken_last_line_is_cut),

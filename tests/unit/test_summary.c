@@ -10,7 +10,7 @@
 #include <string.h>
 
 #include "cipc/output.h"
-#include "support/sample_run.h"
+#include "support/every_kind.h"
 
 static cipc_run_summary good_run(void)
 {
@@ -140,7 +140,7 @@ static void test_fields(void **state)
         assert_true(json_is_integer(at(o, integers[i])));
     }
     static const char *const reals[] = {"time", "monitors.seconds", "monitors.percent", "extremes.min_gap", "extremes.max_stretch",
-                                        "extremes.max_stretch_ratio", "seconds.total", "seconds.output"};
+                                        "extremes.max_stretch_ratio", "extremes.max_segment_stretch", "seconds.total", "seconds.output"};
     for (size_t i = 0; i < sizeof reals / sizeof reals[0]; i++) {
         assert_true(json_is_real(at(o, reals[i])));
     }
@@ -190,6 +190,23 @@ static void test_momentum(void **state)
     json_decref(o);
 }
 
+static void test_counts_of_the_model(void **state)
+{
+    (void)state;
+    sample_run run = every_kind_create_all();
+    cipc_run_summary s = good_run();
+    cipc_run_summary_of_model(&s, run.model);
+    json_t *o = written(&s);
+    const struct { const char *key; int count; } counts[] = {{"model.bodies", 5},   {"model.nodes", 19},    {"model.triangles", 6},
+                                                             {"model.segments", 5}, {"model.particles", 3}, {"model.tetrahedra", 1}};
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        assert_int_equal(json_integer_value(at(o, counts[i].key)), counts[i].count);
+    }
+    assert_string_equal(json_string_value(at(o, "invariants.M4")), "holds"); /* there is a tetrahedron */
+    json_decref(o);
+    sample_run_destroy(&run);
+}
+
 static void test_failed_run(void **state)
 {
     (void)state;
@@ -223,6 +240,7 @@ static void test_interrupted_and_unmonitored_run(void **state)
     assert_string_equal(json_string_value(at(o, "status")), "INTERRUPTED");
     assert_int_equal(json_integer_value(at(o, "exit_status")), 1);
     assert_true(json_is_null(at(o, "extremes.min_gap")) && json_is_null(at(o, "extremes.max_stretch")));
+    assert_true(json_is_null(at(o, "extremes.max_segment_stretch")));
     assert_true(json_is_null(at(o, "scene.file")));
     json_decref(o);
 }
@@ -235,6 +253,7 @@ static void test_adding_steps(void **state)
     cipc_step_invariants v = cipc_step_invariants_none();
     const cipc_invariant_report seen = {.min_gap = 1e-4, .max_stretch = 1.01, .exact_gap_checks = 3};
     cipc_step_invariants_add(&v, &seen);
+    v.max_segment_stretch = 1.5;
     cipc_step_report r = {.converged = true, .newton_iterations = 5, .max_contacts = 9, .factorizations = 5};
     r.seconds[CIPC_PHASE_CCD] = 0.5;
     cipc_run_summary_add(&s, &r, &v);
@@ -245,7 +264,7 @@ static void test_adding_steps(void **state)
     assert_int_equal(s.max_newton_iterations, 5);
     assert_int_equal(s.max_contacts, 9);
     assert_int_equal(s.points_checked, 1);
-    assert_true(s.min_gap == 1e-4 && s.seconds_by_phase[CIPC_PHASE_CCD] == 1 && s.exact_gap_checks == 3);
+    assert_true(s.min_gap == 1e-4 && s.seconds_by_phase[CIPC_PHASE_CCD] == 1 && s.exact_gap_checks == 3 && s.max_segment_stretch == 1.5);
     assert_false(s.converged);
     assert_false(s.monitored);
 }
@@ -262,7 +281,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_verdicts_of_good_runs), cmocka_unit_test(test_verdicts_of_violations),
-        cmocka_unit_test(test_fields), cmocka_unit_test(test_momentum),                cmocka_unit_test(test_failed_run),
+        cmocka_unit_test(test_fields), cmocka_unit_test(test_momentum), cmocka_unit_test(test_counts_of_the_model), cmocka_unit_test(test_failed_run),
         cmocka_unit_test(test_interrupted_and_unmonitored_run), cmocka_unit_test(test_adding_steps),
         cmocka_unit_test(test_unwritable),
     };
