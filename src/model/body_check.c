@@ -128,7 +128,7 @@ static cipc_status check_element(const cipc_body_description *d, int element, co
     if (size > 0) return CIPC_OK;
     if (nodes == 3) return cipc_fail(error, CIPC_E_BAD_MESH, d->name, "triangle %d (%d %d %d) has no area", element, v[0], v[1], v[2]);
     if (nodes == 2) return cipc_fail(error, CIPC_E_BAD_MESH, d->name, "segment %d (%d %d) has no length", element, v[0], v[1]);
-    return cipc_fail(error, CIPC_E_BAD_MESH, d->name, "tetrahedron %d (%d %d %d %d) has volume %g; its fourth node must lie where the first three are seen clockwise",
+    return cipc_fail(error, CIPC_E_BAD_MESH, d->name, "tetrahedron %d (%d %d %d %d) has volume %g; its fourth node must lie where the first three are seen anticlockwise",
                      element, v[0], v[1], v[2], v[3], size);
 }
 
