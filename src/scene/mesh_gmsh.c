@@ -1,222 +1,289 @@
-/* Gmsh's ASCII formats 2.2 and 4.1: nodes and elements; other sections are passed over. */
-#include <limits.h>
+/* Gmsh's mesh files, ASCII, versions 2.2 and 4.1 (the MSH chapter of Gmsh's manual). A row of a section stands on a line of its own, as Gmsh writes it. */
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "scene/mesh.h"
-#include "scene/token_reader.h"
+#include "scene/mesh_formats.h"
 
-/* Nodes of Gmsh's element types of first order; 0: not known. Others are refused only if there is nothing of the wanted kind. */
-static int nodes_of_type(long long type)
-{
-    static const int nodes[] = {0, 2, 3, 4, 4, 8, 6, 5, 3, 6, 9, 10, 27, 18, 14, 1, 8, 20, 15, 13};
-    return type > 0 && type < (long long)(sizeof nodes / sizeof *nodes) ? nodes[type] : 0;
-}
-
-static long long type_of_kind(cipc_mesh_kind kind)
-{
-    static const long long types[] = {2, 1, 15, 4};
-    return types[kind];
-}
-
-typedef struct tagged {
+/* Nodes are named by tags, any positive numbers in any order. */
+typedef struct node_tag {
     long long tag;
-    int node;
-} tagged;
+    int node, line;
+} node_tag;
 
-typedef struct gmsh {
-    token_reader r;
-    cipc_mesh_kind kind;
-    bool version4;
-    int node_count, element_count, element_capacity;
-    double *nodes;
-    tagged *tags; /* sorted when all nodes are read */
-    int *elements;
-} gmsh;
+typedef struct gmsh_reader {
+    scene_scan *scan;
+    scene_parts *parts;
+    bool blocks; /* 4.1: rows come in blocks */
+    bool has_nodes, has_elements;
+    node_tag *tags;
+    long long tag_count, tag_capacity;
+} gmsh_reader;
 
-static int compare_tags(const void *a, const void *b)
+static const long long elements_max = 8LL * SCENE_TETRAHEDRA_MAX; /* of all types, with those that are not read */
+
+static cipc_status expect(gmsh_reader *r, const char *text)
 {
-    const tagged *p = a, *q = b;
-    return (p->tag > q->tag) - (p->tag < q->tag);
+    scene_word word;
+    cipc_status status = scene_expect_word(r->scan, SCENE_ANYWHERE, text, &word);
+    if (status != CIPC_OK || scene_word_is(&word, text)) return status;
+    return scene_scan_reject(r->scan, "'%.*s' where %s is expected", scene_shown(&word), word.text, text);
 }
 
-static void no_memory(gmsh *g)
+static cipc_status read_format(gmsh_reader *r)
 {
-    if (g->r.status == CIPC_OK) g->r.status = cipc_fail(g->r.error, CIPC_E_OUT_OF_MEMORY, g->r.path, "no memory for the mesh");
-}
-
-static void read_format(gmsh *g)
-{
-    double version = scene_token_number(&g->r, "a version");
-    long long binary = scene_token_integer(&g->r, "the file type", 0, 1);
-    if (g->r.status != CIPC_OK) return;
-    if (binary != 0) scene_token_reject(&g->r, "a binary file is not read: save it as ASCII");
-    if (version != 2.2 && version != 4.1) scene_token_reject(&g->r, "version %g is not read; 2.2 and 4.1 are", version);
-    g->version4 = version == 4.1;
-    (void)scene_token_integer(&g->r, "the size of a number", 1, 64);
-}
-
-/* Room for so many nodes: not more than the text can hold, a node being four words. */
-static bool reserve_nodes(gmsh *g, long long count)
-{
-    if (g->nodes != NULL) {
-        scene_token_reject(&g->r, "a second section of nodes");
-        return false;
-    }
-    if (count > (long long)strlen(g->r.at) / 8 + 1) {
-        scene_token_reject(&g->r, "%lld nodes are announced, more than the file holds", count);
-        return false;
-    }
-    g->nodes = cipc_alloc(3 * (size_t)count, sizeof *g->nodes);
-    g->tags = cipc_alloc((size_t)count, sizeof *g->tags);
-    if (g->nodes == NULL || g->tags == NULL) no_memory(g);
-    return g->r.status == CIPC_OK;
-}
-
-static void read_coordinates(gmsh *g, int node)
-{
-    for (int k = 0; k < 3; k++) g->nodes[3 * (size_t)node + (size_t)k] = scene_token_number(&g->r, "a coordinate");
-}
-
-static void read_nodes2(gmsh *g)
-{
-    long long count = scene_token_integer(&g->r, "the number of nodes", 1, SCENE_NODES_MAX);
-    if (g->r.status != CIPC_OK || !reserve_nodes(g, count)) return;
-    for (; g->node_count < count && g->r.status == CIPC_OK; g->node_count++) {
-        g->tags[g->node_count] = (tagged){scene_token_integer(&g->r, "a node's number", 1, LLONG_MAX), g->node_count};
-        read_coordinates(g, g->node_count);
-    }
-}
-
-/* Blocks: first the numbers of their nodes, then the coordinates. */
-static void read_nodes4(gmsh *g)
-{
-    long long blocks = scene_token_integer(&g->r, "the number of blocks", 1, SCENE_NODES_MAX), count = scene_token_integer(&g->r, "the number of nodes", 1, SCENE_NODES_MAX);
-    for (int i = 0; i < 2; i++) (void)scene_token_integer(&g->r, "a node's number", 0, LLONG_MAX);
-    if (g->r.status != CIPC_OK || !reserve_nodes(g, count)) return;
-    for (long long b = 0; b < blocks && g->r.status == CIPC_OK; b++) {
-        for (int i = 0; i < 2; i++) (void)scene_token_integer(&g->r, "an entity", 0, INT_MAX);
-        long long parametric = scene_token_integer(&g->r, "whether nodes are parametric", 0, 1), nodes = scene_token_integer(&g->r, "the number of nodes of a block", 0, count - g->node_count);
-        if (parametric != 0) scene_token_reject(&g->r, "parametric nodes are not read");
-        for (long long i = 0; i < nodes && g->r.status == CIPC_OK; i++)
-            g->tags[g->node_count + i] = (tagged){scene_token_integer(&g->r, "a node's number", 1, LLONG_MAX), g->node_count + (int)i};
-        for (long long i = 0; i < nodes && g->r.status == CIPC_OK; i++, g->node_count++) read_coordinates(g, g->node_count);
-    }
-    if (g->r.status == CIPC_OK && g->node_count < count) scene_token_reject(&g->r, "%lld nodes are announced, %d are given", count, g->node_count);
-}
-
-static void sort_tags(gmsh *g)
-{
-    qsort(g->tags, (size_t)g->node_count, sizeof *g->tags, compare_tags);
-    for (int i = 1; i < g->node_count && g->r.status == CIPC_OK; i++) {
-        if (g->tags[i].tag == g->tags[i - 1].tag) scene_token_reject(&g->r, "node %lld is given twice", g->tags[i].tag);
-    }
-}
-
-/* The nodes of one element, kept if it is of the wanted kind. */
-static void read_element(gmsh *g, bool wanted, int nodes)
-{
-    if (wanted && g->element_count == g->element_capacity) {
-        int capacity = 2 * g->element_capacity + 256;
-        int *grown = cipc_realloc(g->elements, (size_t)capacity * (size_t)nodes, sizeof *grown);
-        if (grown == NULL) {
-            no_memory(g);
-            return;
-        }
-        g->elements = grown;
-        g->element_capacity = capacity;
-    }
-    for (int k = 0; k < nodes && g->r.status == CIPC_OK; k++) {
-        const tagged key = {scene_token_integer(&g->r, "a node's number", 1, LLONG_MAX), 0};
-        const tagged *found = bsearch(&key, g->tags, (size_t)g->node_count, sizeof *g->tags, compare_tags);
-        if (found == NULL) scene_token_reject(&g->r, "an element names node %lld, which is not in the file", key.tag);
-        else if (wanted) g->elements[(size_t)nodes * (size_t)g->element_count + (size_t)k] = found->node;
-    }
-    g->element_count += wanted;
-}
-
-static bool known_type(gmsh *g, long long type)
-{
-    if (nodes_of_type(type) == 0 && g->r.status == CIPC_OK) scene_token_reject(&g->r, "elements of type %lld are not read", type);
-    return g->r.status == CIPC_OK;
-}
-
-static void read_elements2(gmsh *g)
-{
-    long long count = scene_token_integer(&g->r, "the number of elements", 0, SCENE_TRIANGLES_MAX);
-    for (long long i = 0; i < count && g->r.status == CIPC_OK; i++) {
-        (void)scene_token_integer(&g->r, "an element's number", 1, LLONG_MAX);
-        long long type = scene_token_integer(&g->r, "an element's type", 1, 200), tags = scene_token_integer(&g->r, "the number of tags", 0, 1000);
-        for (long long k = 0; k < tags && g->r.status == CIPC_OK; k++) (void)scene_token_integer(&g->r, "a tag", LLONG_MIN, LLONG_MAX);
-        if (known_type(g, type)) read_element(g, type == type_of_kind(g->kind), nodes_of_type(type));
-    }
-}
-
-static void read_elements4(gmsh *g)
-{
-    long long blocks = scene_token_integer(&g->r, "the number of blocks", 0, SCENE_TRIANGLES_MAX), count = scene_token_integer(&g->r, "the number of elements", 0, SCENE_TRIANGLES_MAX);
-    for (int i = 0; i < 2; i++) (void)scene_token_integer(&g->r, "an element's number", 0, LLONG_MAX);
-    for (long long b = 0; b < blocks && g->r.status == CIPC_OK; b++) {
-        for (int i = 0; i < 2; i++) (void)scene_token_integer(&g->r, "an entity", 0, INT_MAX);
-        long long type = scene_token_integer(&g->r, "an element's type", 1, 200), elements = scene_token_integer(&g->r, "the number of elements of a block", 0, count);
-        for (long long i = 0; known_type(g, type) && i < elements; i++) {
-            (void)scene_token_integer(&g->r, "an element's number", 1, LLONG_MAX);
-            read_element(g, type == type_of_kind(g->kind), nodes_of_type(type));
-        }
-    }
-}
-
-static void read_sections(gmsh *g)
-{
-    bool format = false;
-    while (scene_token_next(&g->r)) {
-        if (scene_token_is(&g->r, "$MeshFormat")) {
-            read_format(g);
-            format = true;
-        } else if (*g->r.word == '$' && !format) {
-            scene_token_reject(&g->r, "the file does not begin with $MeshFormat");
-        } else if (scene_token_is(&g->r, "$Nodes")) {
-            if (g->version4) read_nodes4(g);
-            else read_nodes2(g);
-            if (g->r.status == CIPC_OK) sort_tags(g);
-        } else if (scene_token_is(&g->r, "$Elements")) {
-            if (g->version4) read_elements4(g);
-            else read_elements2(g);
-        } else if (!format) {
-            scene_token_reject(&g->r, "not a Gmsh file: it does not begin with $MeshFormat");
-        }
-    }
-}
-
-static cipc_status finish(gmsh *g, cipc_mesh *mesh)
-{
-    if (g->r.status != CIPC_OK) return g->r.status;
-    if (g->node_count == 0) return scene_token_reject(&g->r, "the file ends without nodes");
-    if (g->element_count == 0 && g->kind != CIPC_MESH_NODES) {
-        static const char *const names[] = {"triangles", "lines", "points", "tetrahedra"};
-        return scene_token_reject(&g->r, "the file has no %s", names[g->kind]);
-    }
-    bool nodes_only = g->kind == CIPC_MESH_NODES;
-    cipc_status status = scene_mesh_allocate_kind(mesh, g->kind, g->node_count, nodes_only ? 0 : g->element_count, g->r.path, g->r.error);
+    scene_word version;
+    long long binary, size;
+    cipc_status status = expect(r, "$MeshFormat");
+    if (status == CIPC_OK) status = scene_expect_word(r->scan, SCENE_ANYWHERE, "a version", &version);
+    if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_SAME_LINE, "0 for ASCII", &binary);
+    if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_SAME_LINE, "the size of a number", &size);
     if (status != CIPC_OK) return status;
-    memcpy(mesh->nodes, g->nodes, 3 * (size_t)g->node_count * sizeof *mesh->nodes);
-    void *into = g->kind == CIPC_MESH_TRIANGLES ? (void *)mesh->triangles : g->kind == CIPC_MESH_SEGMENTS ? (void *)mesh->segments : (void *)mesh->tetrahedra;
-    if (!nodes_only) memcpy(into, g->elements, (size_t)g->element_count * (size_t)nodes_of_type(type_of_kind(g->kind)) * sizeof(int));
+    r->blocks = scene_word_is(&version, "4.1");
+    if (!r->blocks && !scene_word_is(&version, "2.2")) {
+        return scene_scan_reject(r->scan, "version %.*s is not read; 2.2 and 4.1 are", scene_shown(&version), version.text);
+    }
+    if (binary != 0) return scene_scan_reject(r->scan, "binary Gmsh is not read: save as ASCII");
+    return expect(r, "$EndMeshFormat");
+}
+
+static cipc_status add_tag(gmsh_reader *r, long long tag)
+{
+    cipc_status status = scene_grow(r->scan, &r->tags, r->tag_count, &r->tag_capacity, sizeof *r->tags);
+    if (status != CIPC_OK) return status;
+    if (tag < 1) return scene_scan_reject(r->scan, "node tag %lld; tags are positive", tag);
+    r->tags[r->tag_count] = (node_tag){tag, (int)r->tag_count, r->scan->line};
+    r->tag_count++;
     return CIPC_OK;
 }
 
-cipc_status scene_mesh_read_gmsh(cipc_mesh *mesh, const char *path, cipc_mesh_kind kind, cipc_error *error)
+/* x y z; in a parametric block followed by the node's parameters on its curve or surface, which are not used. */
+static cipc_status read_position(gmsh_reader *r, scene_reach reach, bool parametric)
 {
-    *mesh = (cipc_mesh){0};
-    gmsh g = {.kind = kind};
-    cipc_status status = scene_token_reader_open(&g.r, path, error);
-    if (status == CIPC_OK) {
-        read_sections(&g);
-        status = finish(&g, mesh);
+    double x[3];
+    cipc_status status = CIPC_OK;
+    for (int k = 0; k < 3 && status == CIPC_OK; k++) status = scene_expect_number(r->scan, k == 0 ? reach : SCENE_SAME_LINE, "a coordinate", &x[k]);
+    if (status == CIPC_OK && !parametric) status = scene_expect_line_end(r->scan, "three coordinates");
+    if (status == CIPC_OK && parametric) scene_skip_line(r->scan);
+    return status == CIPC_OK ? scene_parts_add_node(r->parts, r->scan, x) : status;
+}
+
+/* 2.2: tag x y z. */
+static cipc_status read_node_rows(gmsh_reader *r, long long count)
+{
+    cipc_status status = CIPC_OK;
+    for (long long i = 0; i < count && status == CIPC_OK; i++) {
+        long long tag;
+        status = scene_expect_entry(r->scan, "nodes", i, count);
+        if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_ANYWHERE, "a node's tag", &tag);
+        if (status == CIPC_OK) status = add_tag(r, tag);
+        if (status == CIPC_OK) status = read_position(r, SCENE_SAME_LINE, false);
     }
-    scene_token_reader_close(&g.r);
-    cipc_free(g.nodes);
-    cipc_free(g.tags);
-    cipc_free(g.elements);
+    return status;
+}
+
+/* The head of a block of 4.1: dimension and tag of its entity, a third number, rows in it. `left`: rows announced and not yet read. */
+static cipc_status read_block_head(gmsh_reader *r, const char *third, long long left, long long *third_value, long long *rows)
+{
+    long long entity[2];
+    cipc_status status = scene_expect_integer(r->scan, SCENE_ANYWHERE, "an entity's dimension", &entity[0]);
+    if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_SAME_LINE, "an entity's tag", &entity[1]);
+    if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_SAME_LINE, third, third_value);
+    if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_SAME_LINE, "the rows of a block", rows);
+    if (status == CIPC_OK) status = scene_expect_line_end(r->scan, "the head of a block");
+    if (status != CIPC_OK || (*rows >= 0 && *rows <= left)) return status;
+    return scene_scan_reject(r->scan, "a block of %lld rows, but %lld are left of those announced", *rows, left);
+}
+
+/* 4.1: the tags of a block, then its positions. */
+static cipc_status read_node_block(gmsh_reader *r, long long *left)
+{
+    long long parametric, rows, tag;
+    cipc_status status = read_block_head(r, "0 or 1 for parameters", *left, &parametric, &rows);
+    for (long long i = 0; status == CIPC_OK && i < rows; i++) {
+        status = scene_expect_entry(r->scan, "tags", i, rows);
+        if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_ANYWHERE, "a node's tag", &tag);
+        if (status == CIPC_OK) status = add_tag(r, tag);
+    }
+    for (long long i = 0; status == CIPC_OK && i < rows; i++) {
+        status = scene_expect_entry(r->scan, "positions", i, rows);
+        if (status == CIPC_OK) status = read_position(r, SCENE_ANYWHERE, parametric != 0);
+    }
+    if (status == CIPC_OK) *left -= rows;
+    return status;
+}
+
+typedef struct element_type {
+    int number;
+    cipc_mesh_kind kind;
+} element_type;
+
+static const element_type *find_type(long long number)
+{
+    static const element_type types[] = {{1, CIPC_MESH_SEGMENTS}, {2, CIPC_MESH_TRIANGLES}, {4, CIPC_MESH_TETRAHEDRA}, {15, CIPC_MESH_NODES}};
+    for (size_t i = 0; i < sizeof types / sizeof *types; i++) {
+        if (types[i].number == number) return &types[i];
+    }
+    return NULL;
+}
+
+/* The nodes that end a row, as tags for now: $Elements may come before $Nodes. */
+static cipc_status read_corners(gmsh_reader *r, long long number)
+{
+    const element_type *type = find_type(number);
+    if (type == NULL) {
+        char what[32];
+        snprintf(what, sizeof what, "type %lld", number);
+        scene_parts_skip(r->parts, what, 1);
+        scene_skip_line(r->scan);
+        return CIPC_OK;
+    }
+    long long corners[4];
+    cipc_status status = CIPC_OK;
+    for (int k = 0; k < scene_corners(type->kind) && status == CIPC_OK; k++) status = scene_expect_integer(r->scan, SCENE_SAME_LINE, "a node's tag", &corners[k]);
+    if (status == CIPC_OK) status = scene_expect_line_end(r->scan, "an element's last node");
+    return status == CIPC_OK ? scene_parts_add(r->parts, r->scan, r->scan->line, type->kind, corners) : status;
+}
+
+/* 2.2: tag type count-of-labels labels... nodes... */
+static cipc_status read_element_rows(gmsh_reader *r, long long count)
+{
+    cipc_status status = CIPC_OK;
+    for (long long i = 0; i < count && status == CIPC_OK; i++) {
+        long long tag, type, labels, label;
+        status = scene_expect_entry(r->scan, "elements", i, count);
+        if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_ANYWHERE, "an element's tag", &tag);
+        if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_SAME_LINE, "an element's type", &type);
+        if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_SAME_LINE, "the number of labels", &labels);
+        for (long long k = 0; status == CIPC_OK && k < labels; k++) status = scene_expect_integer(r->scan, SCENE_SAME_LINE, "a label", &label);
+        if (status == CIPC_OK) status = read_corners(r, type);
+    }
+    return status;
+}
+
+/* 4.1: tag nodes... */
+static cipc_status read_element_block(gmsh_reader *r, long long *left)
+{
+    long long type, rows, tag;
+    cipc_status status = read_block_head(r, "an element type", *left, &type, &rows);
+    for (long long i = 0; status == CIPC_OK && i < rows; i++) {
+        status = scene_expect_entry(r->scan, "elements", i, rows);
+        if (status == CIPC_OK) status = scene_expect_integer(r->scan, SCENE_ANYWHERE, "an element's tag", &tag);
+        if (status == CIPC_OK) status = read_corners(r, type);
+    }
+    if (status == CIPC_OK) *left -= rows;
+    return status;
+}
+
+/* The head of a section: "count", or in 4.1 "blocks count smallest-tag largest-tag". */
+static cipc_status read_section_head(gmsh_reader *r, const char *what, long long limit, long long *blocks, long long *count)
+{
+    long long tag;
+    cipc_status status = CIPC_OK;
+    if (r->blocks) status = scene_expect_count(r->scan, SCENE_ANYWHERE, "the number of blocks", limit, blocks);
+    if (status == CIPC_OK) status = scene_expect_count(r->scan, r->blocks ? SCENE_SAME_LINE : SCENE_ANYWHERE, what, limit, count);
+    for (int k = 0; r->blocks && k < 2 && status == CIPC_OK; k++) status = scene_expect_integer(r->scan, SCENE_SAME_LINE, "a tag", &tag);
+    return status == CIPC_OK ? scene_expect_line_end(r->scan, "the head of a section") : status;
+}
+
+static cipc_status read_nodes(gmsh_reader *r)
+{
+    if (r->has_nodes) return scene_scan_reject(r->scan, "a second $Nodes");
+    r->has_nodes = true;
+    long long blocks, count;
+    cipc_status status = read_section_head(r, "the number of nodes", SCENE_NODES_MAX, &blocks, &count);
+    if (status == CIPC_OK && !r->blocks) status = read_node_rows(r, count);
+    for (long long b = 0; r->blocks && status == CIPC_OK && b < blocks; b++) {
+        status = scene_expect_entry(r->scan, "blocks", b, blocks);
+        if (status == CIPC_OK) status = read_node_block(r, &count);
+    }
+    if (status == CIPC_OK && r->blocks && count > 0) status = scene_scan_reject(r->scan, "the blocks have %lld nodes fewer than announced", count);
+    return status == CIPC_OK ? expect(r, "$EndNodes") : status;
+}
+
+static cipc_status read_elements(gmsh_reader *r)
+{
+    if (r->has_elements) return scene_scan_reject(r->scan, "a second $Elements");
+    r->has_elements = true;
+    long long blocks, count;
+    cipc_status status = read_section_head(r, "the number of elements", elements_max, &blocks, &count);
+    if (status == CIPC_OK && !r->blocks) status = read_element_rows(r, count);
+    for (long long b = 0; r->blocks && status == CIPC_OK && b < blocks; b++) {
+        status = scene_expect_entry(r->scan, "blocks", b, blocks);
+        if (status == CIPC_OK) status = read_element_block(r, &count);
+    }
+    if (status == CIPC_OK && r->blocks && count > 0) status = scene_scan_reject(r->scan, "the blocks have %lld elements fewer than announced", count);
+    return status == CIPC_OK ? expect(r, "$EndElements") : status;
+}
+
+/* Of $Name up to $EndName, wherever it stands at the beginning of a line. */
+static cipc_status skip_section(gmsh_reader *r, const scene_word *name)
+{
+    int line = r->scan->line;
+    scene_skip_line(r->scan);
+    for (scene_word word; scene_next_word(r->scan, SCENE_ANYWHERE, &word); scene_skip_line(r->scan)) {
+        bool ends = word.length == name->length + 3 && memcmp(word.text, "$End", 4) == 0 && memcmp(word.text + 4, name->text + 1, (size_t)name->length - 1) == 0;
+        if (ends) return CIPC_OK;
+    }
+    return scene_scan_reject_at(r->scan, line, CIPC_E_BAD_MESH, "the file ends inside %.*s", scene_shown(name), name->text);
+}
+
+static cipc_status read_section(gmsh_reader *r, const scene_word *name)
+{
+    if (scene_word_is(name, "$Nodes")) return read_nodes(r);
+    if (scene_word_is(name, "$Elements")) return read_elements(r);
+    if (name->text[0] == '$' && !(name->length >= 4 && memcmp(name->text, "$End", 4) == 0)) return skip_section(r, name);
+    return scene_scan_reject(r->scan, "'%.*s' where a section should begin", scene_shown(name), name->text);
+}
+
+static int compare_tags(const void *a, const void *b)
+{
+    const node_tag *p = a, *q = b;
+    return p->tag != q->tag ? (p->tag < q->tag ? -1 : 1) : p->line - q->line;
+}
+
+/* Gmsh writes tags in order, so that sorting is rarely needed. */
+static cipc_status sort_tags(gmsh_reader *r)
+{
+    bool sorted = true;
+    for (long long i = 1; i < r->tag_count; i++) sorted = sorted && r->tags[i - 1].tag < r->tags[i].tag;
+    if (sorted) return CIPC_OK;
+    qsort(r->tags, (size_t)r->tag_count, sizeof *r->tags, compare_tags);
+    for (long long i = 1; i < r->tag_count; i++) {
+        if (r->tags[i - 1].tag == r->tags[i].tag) {
+            return scene_scan_reject_at(r->scan, r->tags[i].line, CIPC_E_BAD_MESH, "node tag %lld is taken by line %d", r->tags[i].tag, r->tags[i - 1].line);
+        }
+    }
+    return CIPC_OK;
+}
+
+static int compare_tag(const void *key, const void *entry)
+{
+    long long tag = *(const long long *)key, other = ((const node_tag *)entry)->tag;
+    return tag < other ? -1 : tag > other;
+}
+
+static cipc_status resolve_tags(gmsh_reader *r)
+{
+    cipc_status status = sort_tags(r);
+    int corners = scene_corners(r->parts->kind);
+    for (long long i = 0; status == CIPC_OK && i < corners * r->parts->element_count; i++) {
+        long long *corner = &r->parts->corners[i];
+        const node_tag *found = r->tag_count > 0 ? bsearch(corner, r->tags, (size_t)r->tag_count, sizeof *r->tags, compare_tag) : NULL;
+        if (found == NULL) return scene_scan_reject_at(r->scan, r->parts->lines[i / corners], CIPC_E_BAD_MESH, "node tag %lld is not in $Nodes", *corner);
+        *corner = found->node;
+    }
+    return status;
+}
+
+cipc_status scene_read_gmsh(scene_scan *scan, scene_parts *parts)
+{
+    gmsh_reader r = {.scan = scan, .parts = parts};
+    cipc_status status = read_format(&r);
+    for (scene_word name; status == CIPC_OK && scene_next_word(scan, SCENE_ANYWHERE, &name);) status = read_section(&r, &name);
+    if (status == CIPC_OK && !r.has_nodes) status = scene_scan_reject_at(scan, 0, CIPC_E_BAD_MESH, "it has no $Nodes");
+    if (status == CIPC_OK) status = resolve_tags(&r);
+    cipc_free(r.tags);
     return status;
 }

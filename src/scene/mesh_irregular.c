@@ -5,6 +5,7 @@
 
 #include "scene/delaunay.h"
 #include "scene/mesh.h"
+#include "scene/random.h"
 
 static const char place[] = "irregular";
 
@@ -24,16 +25,6 @@ typedef struct sheet {
     int (*triangles)[3];
     int triangle_count;
 } sheet;
-
-/* splitmix64: uniform in [0, 1), the same bits everywhere. */
-static double draw(uint64_t *state)
-{
-    uint64_t z = *state += 0x9E3779B97F4A7C15u;
-    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9u;
-    z = (z ^ (z >> 27)) * 0x94D049BB133111EBu;
-    z ^= z >> 31;
-    return (double)(z >> 11) * 0x1p-53;
-}
 
 /* Spacing h of equilateral triangles: n points, B = 2 (size_x + size_z) / h of them on the boundary, make 2 n - 2 - B triangles (Euler) of
  * area sqrt(3)/4 h^2, which fill the rectangle: (n - 1) h^2 - (size_x + size_z) h = 2 size_x size_z / sqrt(3). */
@@ -92,13 +83,13 @@ static void place_inside(sheet *s, uint64_t *random)
     int along = inner[0] >= inner[1] ? 0 : 1, free_points = s->count - s->boundary;
     double ratio = inner[along] / inner[1 - along];
     int tiles = ratio < 1.5 || free_points == 0 ? 1 : ratio < free_points ? (int)round(ratio) : free_points;
-    double origin[2] = {draw(random), draw(random)};
+    double origin[2] = {scene_random(random), scene_random(random)};
     for (int i = 0; i < free_points; i++) {
         double *x = s->points + 2 * (s->boundary + i), turn = i / tiles + 1, tile = i % tiles;
         for (int k = 0; k < 2; k++) {
             double fraction = fmod(origin[k] + turn * step[k] + tile * step[1 - k], 1.0);
             if (k == along) fraction = (tile + fraction) / tiles;
-            double shift = jitter * s->spacing * (2 * draw(random) - 1);
+            double shift = jitter * s->spacing * (2 * scene_random(random) - 1);
             x[k] = clamp((fraction - 0.5) * inner[k] + shift, 0.5 * inner[k]);
         }
     }

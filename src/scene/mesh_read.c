@@ -1,64 +1,86 @@
-/* Mesh files by their ending, and the nodes that their elements use. */
+/* Mesh files by the ending of their name. */
 #include <string.h>
 #include <strings.h>
 
-#include "scene/mesh.h"
+#include "scene/mesh_formats.h"
+#include "scene/text_file.h"
 
-typedef cipc_status reader(cipc_mesh *mesh, const char *path, cipc_mesh_kind kind, cipc_error *error);
+typedef enum file_format { FORMAT_OBJ, FORMAT_SEG, FORMAT_GMSH, FORMAT_VTK, FORMAT_COUNT } file_format;
 
-static reader *reader_for(const char *path)
+static file_format format_of(const char *path)
 {
-    static const struct {
-        const char *ending;
-        reader *read;
-    } readers[] = {{".obj", scene_mesh_read_obj}, {".seg", scene_mesh_read_obj}, {".msh", scene_mesh_read_gmsh}, {".vtk", scene_mesh_read_vtk}};
-    const char *dot = strrchr(path, '.');
-    for (size_t i = 0; dot != NULL && i < sizeof readers / sizeof *readers; i++) {
-        if (strcasecmp(dot, readers[i].ending) == 0) return readers[i].read;
-    }
-    return NULL;
+    static const char *const endings[] = {".obj", ".seg", ".msh", ".vtk"};
+    const char *ending = strrchr(path, '.');
+    int format = 0;
+    while (format < FORMAT_COUNT && (ending == NULL || strcasecmp(ending, endings[format]) != 0)) format++;
+    return (file_format)format;
 }
 
-/* The elements of the mesh as one list of node numbers. */
-static int *elements_of(cipc_mesh *mesh, cipc_mesh_kind kind, size_t *count)
+/* Binary data nearly always has a zero byte, which would end the text early: said here, in words that help. */
+static cipc_status check_text(scene_scan *scan, file_format format, size_t length)
 {
-    *count = 0;
-    if (kind == CIPC_MESH_TRIANGLES) *count = 3 * (size_t)mesh->triangle_count;
-    if (kind == CIPC_MESH_SEGMENTS) *count = 2 * (size_t)mesh->segment_count;
-    if (kind == CIPC_MESH_TETRAHEDRA) *count = 4 * (size_t)mesh->tetrahedron_count;
-    if (kind == CIPC_MESH_TRIANGLES) return mesh->triangles[0];
-    return kind == CIPC_MESH_SEGMENTS ? mesh->segments[0] : mesh->tetrahedra[0];
+    if (strlen(scan->at) == length) return CIPC_OK;
+    if (format == FORMAT_GMSH || format == FORMAT_VTK) {
+        return scene_scan_reject_at(scan, 0, CIPC_E_BAD_MESH, "binary %s is not read: save as ASCII", format == FORMAT_GMSH ? "Gmsh" : "VTK");
+    }
+    return scene_scan_reject_at(scan, 0, CIPC_E_BAD_MESH, "not a text file: it has a zero byte");
 }
 
-/* Leave out nodes that no element uses; the others keep their order. */
-static cipc_status drop_unused(cipc_mesh *mesh, cipc_mesh_kind kind, const char *path, cipc_error *error)
+static cipc_status read_parts(scene_scan *scan, scene_parts *parts, file_format format)
 {
-    size_t count;
-    int *elements = elements_of(mesh, kind, &count), *number = cipc_alloc((size_t)mesh->node_count, sizeof *number), kept = 0;
-    if (number == NULL) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, path, "no memory for %d nodes", mesh->node_count);
-    for (size_t i = 0; i < count; i++) number[elements[i]] = 1;
-    for (int i = 0; i < mesh->node_count; i++) {
-        if (number[i] == 0) continue;
-        memmove(mesh->nodes + 3 * (size_t)kept, mesh->nodes + 3 * (size_t)i, 3 * sizeof *mesh->nodes);
-        number[i] = kept++;
-    }
-    for (size_t i = 0; i < count; i++) elements[i] = number[elements[i]];
-    mesh->node_count = kept;
-    cipc_free(number);
-    return CIPC_OK;
+    if (format == FORMAT_GMSH) return scene_read_gmsh(scan, parts);
+    if (format == FORMAT_VTK) return scene_read_vtk(scan, parts);
+    return scene_read_obj(scan, parts, format == FORMAT_SEG);
+}
+
+static cipc_status read_text(cipc_mesh *mesh, const char *path, file_format format, const char *text, size_t length, cipc_mesh_kind kind, bool keep_all,
+                             cipc_error *error)
+{
+    *mesh = (cipc_mesh){0};
+    cipc_error own;
+    scene_scan scan = {.path = path, .at = text, .line = 1, .error = error != NULL ? error : &own};
+    scene_parts parts = scene_parts_of(kind);
+    cipc_status status = check_text(&scan, format, length);
+    if (status == CIPC_OK) status = read_parts(&scan, &parts, format);
+    if (status == CIPC_OK) status = scene_parts_finish(&parts, &scan, keep_all, mesh);
+    scene_parts_free(&parts);
+    return status;
+}
+
+static cipc_status check_name(const char *path, cipc_error *error)
+{
+    if (format_of(path) != FORMAT_COUNT) return CIPC_OK;
+    cipc_fail(error, CIPC_E_BAD_MESH, path, "not the name of a mesh file");
+    if (error != NULL) cipc_fail_remedy(error, "save it as .obj, .seg, .msh (Gmsh, ASCII) or .vtk (legacy, ASCII)");
+    return CIPC_E_BAD_MESH;
+}
+
+cipc_status scene_read_mesh_text(cipc_mesh *mesh, const char *path, const char *text, size_t length, cipc_mesh_kind kind, cipc_error *error)
+{
+    *mesh = (cipc_mesh){0};
+    cipc_status status = check_name(path, error);
+    return status == CIPC_OK ? read_text(mesh, path, format_of(path), text, length, kind, false, error) : status;
 }
 
 cipc_status cipc_mesh_read(cipc_mesh *mesh, const char *path, cipc_mesh_kind kind, cipc_error *error)
 {
     *mesh = (cipc_mesh){0};
-    reader *read = reader_for(path);
-    if (read == NULL) return cipc_fail(error, CIPC_E_BAD_MESH, path, "the ending tells no format; .obj, .seg, .msh and .vtk are read");
-    cipc_status status = read(mesh, path, kind, error);
-    if (status == CIPC_OK && kind != CIPC_MESH_NODES) status = drop_unused(mesh, kind, path, error);
-    if (status != CIPC_OK) {
-        cipc_mesh_free(mesh);
-        return status;
-    }
-    if (kind == CIPC_MESH_TETRAHEDRA) scene_mesh_orient(mesh);
-    return CIPC_OK;
+    char *text = NULL;
+    size_t length = 0;
+    cipc_status status = check_name(path, error);
+    if (status == CIPC_OK) status = scene_read_text(path, &text, &length, error);
+    if (status == CIPC_OK) status = scene_read_mesh_text(mesh, path, text, length, kind, error);
+    cipc_free(text);
+    return status;
+}
+
+cipc_status cipc_mesh_read_obj(cipc_mesh *mesh, const char *path, cipc_error *error)
+{
+    *mesh = (cipc_mesh){0};
+    char *text = NULL;
+    size_t length = 0;
+    cipc_status status = scene_read_text(path, &text, &length, error);
+    if (status == CIPC_OK) status = read_text(mesh, path, FORMAT_OBJ, text, length, CIPC_MESH_TRIANGLES, true, error);
+    cipc_free(text);
+    return status;
 }

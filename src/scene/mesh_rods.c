@@ -1,148 +1,95 @@
-/* Rods: polylines, arcs, lattices of straight rods, woven nets. */
+/* Bundles and beds of straight rods. */
 #include <math.h>
 
-#include "base/vector.h"
 #include "scene/mesh.h"
 
-static const double two_pi = 6.28318530717958647692;
+static const char place[] = "rods";
 
-static bool all_positive(const double *values, int count)
+static cipc_status check(const int count[3], const double spacing[3], double length, int segments, cipc_error *error)
 {
-    for (int i = 0; i < count; i++) {
-        if (!(values[i] > 0 && isfinite(values[i]))) return false;
+    if (!(length > 0 && isfinite(length))) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "rods of %g m", length);
+    if (segments < 1) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "%d segments a rod", segments);
+    for (int a = 0; a < 3; a++) {
+        if (count[a] < 1) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "%d by %d by %d rods", count[0], count[1], count[2]);
+        if (count[a] > 1 && !(spacing[a] > 0 && isfinite(spacing[a]))) {
+            return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "%d rods with a spacing of %g m", count[a], spacing[a]);
+        }
     }
-    return true;
-}
-
-static void add_segment(cipc_mesh *mesh, int index, int a, int b)
-{
-    mesh->segments[index][0] = a;
-    mesh->segments[index][1] = b;
-}
-
-cipc_status cipc_mesh_polyline(cipc_mesh *mesh, int count, const double (*points)[3], int segments, bool closed, cipc_error *error)
-{
-    static const char place[] = "polyline";
-    *mesh = (cipc_mesh){0};
-    if (count < 2 || segments < 1) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "%d points with %d segments from one to the next; at least 2 and 1 are needed", count, segments);
-    if (closed && count < 3) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "a closed line of %d points; at least 3 are needed", count);
-    long long stretches = closed ? count : count - 1, elements = stretches * segments, nodes = closed ? elements : elements + 1;
-    cipc_status status = scene_mesh_allocate_kind(mesh, CIPC_MESH_SEGMENTS, nodes, elements, place, error);
-    if (status != CIPC_OK) return status;
-    for (int i = 0; i < mesh->node_count; i++) {
-        int stretch = i / segments, part = i % segments;
-        const double *a = points[stretch % count], *b = points[(stretch + 1) % count], t = (double)part / segments;
-        for (int k = 0; k < 3; k++) mesh->nodes[3 * (size_t)i + (size_t)k] = part == 0 ? a[k] : a[k] + t * (b[k] - a[k]);
+    if (count[1] > 1 && spacing[1] <= length) {
+        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "layers %g m apart of rods of %g m would touch", spacing[1], length);
     }
-    for (int i = 0; i < mesh->segment_count; i++) add_segment(mesh, i, i, (i + 1) % mesh->node_count);
     return CIPC_OK;
 }
 
-cipc_status cipc_mesh_arc(cipc_mesh *mesh, double radius, double angle, int segments, cipc_error *error)
+/* Steps from the middle of a row, doubled to stay whole. */
+static long long doubled_offset(int index, int count)
 {
-    static const char place[] = "arc";
-    const double numbers[2] = {radius, angle};
-    *mesh = (cipc_mesh){0};
-    bool closed = fabs(angle - two_pi) < 1e-9;
-    if (!all_positive(numbers, 2) || segments < (closed ? 3 : 1) || (angle > two_pi && !closed)) {
-        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "an arc of radius %g m over %g rad with %d segments; at most a full turn, of 3 segments or more", radius, angle, segments);
-    }
-    cipc_status status = scene_mesh_allocate_kind(mesh, CIPC_MESH_SEGMENTS, closed ? segments : segments + 1LL, segments, place, error);
-    if (status != CIPC_OK) return status;
-    for (int i = 0; i < mesh->node_count; i++) {
-        double turn = (closed ? two_pi : angle) * ((double)i / segments);
-        mesh->nodes[3 * (size_t)i] = radius * cos(turn);
-        mesh->nodes[3 * (size_t)i + 1] = radius * sin(turn);
-    }
-    for (int i = 0; i < segments; i++) add_segment(mesh, i, i, (i + 1) % mesh->node_count);
-    return CIPC_OK;
+    return 2LL * index - (count - 1);
 }
 
-/* Place of the i-th of n along a row that is centred on 0. */
-static double centred(int i, int n, double spacing) { return (i - 0.5 * (n - 1)) * spacing; }
-
-/* Is the rod at column i, row j inside the ellipse that its layer's outermost rods touch? */
-static bool is_kept(int i, int j, const int count[3], bool round)
+/* The ellipse passes through the outermost axes of the middle rows: (x / (nx - 1))^2 + (z / (nz - 1))^2 <= 1 with x and z doubled offsets. Multiplied out, so that all is whole
+ * and rods on the ellipse are in: a layer has at most SCENE_NODES_MAX rods, so the products are below 1e14, which a double holds exactly. */
+static bool is_inside(const int count[3], int i, int k)
 {
-    if (!round) return true;
-    double x = count[0] > 1 ? centred(i, count[0], 2.0 / (count[0] - 1)) : 0, z = count[2] > 1 ? centred(j, count[2], 2.0 / (count[2] - 1)) : 0;
-    return x * x + z * z <= 1 + 1e-12;
+    double width = count[0] > 1 ? count[0] - 1 : 1, depth = count[2] > 1 ? count[2] - 1 : 1;
+    double x = (double)doubled_offset(i, count[0]), z = (double)doubled_offset(k, count[2]);
+    return x * x * (depth * depth) + z * z * (width * width) <= width * width * (depth * depth);
 }
 
-static long long rods_in_layer(const int count[3], bool round)
+static long long rods_of_layer(const int count[3], bool round)
 {
-    long long rods = 0;
-    for (int j = 0; j < count[2]; j++) {
-        for (int i = 0; i < count[0]; i++) rods += is_kept(i, j, count, round);
+    if (!round) return scene_mesh_product(count[0], count[2]);
+    long long inside = 0;
+    for (int k = 0; k < count[2]; k++) {
+        for (int i = 0; i < count[0]; i++) inside += is_inside(count, i, k);
     }
-    return rods;
+    return inside;
 }
 
-static void place_rod(cipc_mesh *mesh, long long rod, const double middle[3], double length, int segments)
+static void add_rod(cipc_mesh *mesh, int rod, const double middle[3], double length, int segments)
 {
+    int first = rod * (segments + 1);
     for (int s = 0; s <= segments; s++) {
-        double *x = mesh->nodes + 3 * (size_t)(rod * (segments + 1) + s);
-        v3_copy(x, middle);
-        x[1] += length * ((double)s / segments - 0.5);
-        if (s > 0) add_segment(mesh, (int)(rod * segments + s - 1), (int)(rod * (segments + 1) + s - 1), (int)(rod * (segments + 1) + s));
+        double *x = mesh->nodes + 3 * (first + s);
+        x[0] = middle[0];
+        x[1] = middle[1] + length * ((double)s / segments - 0.5);
+        x[2] = middle[2];
+    }
+    for (int s = 0; s < segments; s++) {
+        int *segment = mesh->segments[rod * segments + s];
+        segment[0] = first + s;
+        segment[1] = first + s + 1;
+    }
+}
+
+static void add_rods(cipc_mesh *mesh, const int count[3], const double spacing[3], double length, int segments, bool round)
+{
+    int rod = 0;
+    for (int j = 0; j < count[1]; j++) {
+        for (int k = 0; k < count[2]; k++) {
+            for (int i = 0; i < count[0]; i++) {
+                if (round && !is_inside(count, i, k)) continue;
+                const int index[3] = {i, j, k};
+                double middle[3];
+                for (int a = 0; a < 3; a++) middle[a] = count[a] > 1 ? 0.5 * spacing[a] * (double)doubled_offset(index[a], count[a]) : 0;
+                add_rod(mesh, rod++, middle, length, segments);
+            }
+        }
     }
 }
 
 cipc_status cipc_mesh_rods(cipc_mesh *mesh, const int count[3], const double spacing[3], double length, int segments, bool round, cipc_error *error)
 {
-    static const char place[] = "rods";
     *mesh = (cipc_mesh){0};
-    bool good = segments >= 1 && all_positive(&length, 1) && all_positive(spacing, 3);
-    for (int k = 0; k < 3; k++) good = good && count[k] >= 1 && count[k] <= SCENE_NODES_MAX;
-    if (!good || (double)count[0] * count[2] > SCENE_NODES_MAX) {
-        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "%d by %d by %d rods of %g m and %d segments, %g by %g by %g m apart", count[0], count[1], count[2], length, segments,
-                         spacing[0], spacing[1], spacing[2]);
-    }
-    long long rods = rods_in_layer(count, round) * count[1];
-    if (rods > SCENE_NODES_MAX) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "%lld rods; at most %d are allowed", rods, SCENE_NODES_MAX);
-    cipc_status status = scene_mesh_allocate_kind(mesh, CIPC_MESH_SEGMENTS, rods * (segments + 1LL), rods * segments, place, error);
+    cipc_status status = check(count, spacing, length, segments, error);
     if (status != CIPC_OK) return status;
-    long long rod = 0;
-    for (int layer = 0; layer < count[1]; layer++) {
-        for (int j = 0; j < count[2]; j++) {
-            for (int i = 0; i < count[0]; i++) {
-                const double middle[3] = {centred(i, count[0], spacing[0]), centred(layer, count[1], spacing[1]), centred(j, count[2], spacing[2])};
-                if (is_kept(i, j, count, round)) place_rod(mesh, rod++, middle, length, segments);
-            }
-        }
+    if (scene_mesh_product(count[0], count[2]) > SCENE_NODES_MAX) {
+        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "layers of %d by %d rods; at most %d nodes are allowed", count[0], count[2], SCENE_NODES_MAX);
     }
-    return CIPC_OK;
-}
-
-/* Height of rod `own` where it crosses the others: up and down in turn, straight between two crossings. */
-static double woven(double along, int own, int n, double pitch, double lift)
-{
-    double place = along / pitch + 0.5 * (n - 1), lower = floor(place), part = place - lower;
-    double first = fmin(fmax(lower, 0), n - 1), second = fmin(fmax(lower + 1, 0), n - 1);
-    double sign[2] = {fmod(first + own, 2) == 0 ? 1 : -1, fmod(second + own, 2) == 0 ? 1 : -1};
-    return lift * ((1 - part) * sign[0] + part * sign[1]);
-}
-
-cipc_status cipc_mesh_net(cipc_mesh *mesh, double size, int n, int segments, double lift, cipc_error *error)
-{
-    static const char place[] = "net";
-    const double numbers[2] = {size, lift};
-    *mesh = (cipc_mesh){0};
-    if (!all_positive(numbers, 2) || n < 1 || segments < 1) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "a net of %g m with %d rods each way, %d segments and a lift of %g m", size, n, segments, lift);
-    cipc_status status = scene_mesh_allocate_kind(mesh, CIPC_MESH_SEGMENTS, 2LL * n * (segments + 1LL), 2LL * n * segments, place, error);
-    if (status != CIPC_OK) return status;
-    double pitch = size / n;
-    for (int rod = 0; rod < 2 * n; rod++) {
-        int own = rod % n, along_z = rod / n;
-        for (int s = 0; s <= segments; s++) {
-            double along = size * ((double)s / segments - 0.5), height = woven(along, own, n, pitch, lift);
-            int node = rod * (segments + 1) + s;
-            double *x = mesh->nodes + 3 * (size_t)node;
-            x[along_z ? 2 : 0] = along;
-            x[along_z ? 0 : 2] = centred(own, n, pitch);
-            x[1] = along_z ? -height : height;
-            if (s > 0) add_segment(mesh, rod * segments + s - 1, node - 1, node);
-        }
-    }
-    return CIPC_OK;
+    long long rods = scene_mesh_product(rods_of_layer(count, round), count[1]);
+    if (rods == 0) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "no rods of %d by %d lie within the ellipse", count[0], count[2]);
+    scene_mesh_sizes sizes = {.nodes = scene_mesh_product(rods, segments + 1LL), .segments = scene_mesh_product(rods, segments)};
+    status = scene_mesh_allocate_sizes(mesh, &sizes, place, error);
+    if (status == CIPC_OK) add_rods(mesh, count, spacing, length, segments, round);
+    return status;
 }

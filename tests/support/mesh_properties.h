@@ -1,4 +1,4 @@
-/* What a surface mesh is like: for tests of generators. */
+/* What a mesh is like: for tests of generators. */
 #ifndef SUPPORT_MESH_PROPERTIES_H
 #define SUPPORT_MESH_PROPERTIES_H
 
@@ -16,5 +16,22 @@ typedef struct mesh_properties {
 
 /* Brute force over sorted half-edges; O(n log n). */
 mesh_properties measure_mesh(const cipc_mesh *mesh);
+
+typedef struct volume_properties {
+    double volume, smallest, largest; /* of all tetrahedra, the least and the largest one, signed */
+    double smallest_dihedral;         /* rad */
+    mesh_properties surface;          /* of the faces of one tetrahedron only; its unused nodes lie inside, its Euler number counts the others */
+    int surface_triangles;
+    int nodes_unused;                 /* by any tetrahedron */
+} volume_properties;
+
+volume_properties measure_volume(const cipc_mesh *mesh);
+
+/* Nodes at the very place of another one. */
+int count_duplicate_nodes(const cipc_mesh *mesh);
+/* Sum over the segments. */
+double total_length(const cipc_mesh *mesh);
+/* Same counts, same bits. */
+bool are_same_meshes(const cipc_mesh *a, const cipc_mesh *b);
 
 #endif

@@ -91,6 +91,17 @@ static void test_polygons_are_fanned(void **state)
     cipc_mesh_free(&mesh);
 }
 
+/* Unlike cipc_mesh_read, this keeps every vertex under the number that the file gives it. */
+static void test_all_vertices_are_kept(void **state)
+{
+    (void)state;
+    cipc_mesh mesh = accept("v 9 9 9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\nl 1 2\n");
+    assert_int_equal(mesh.node_count, 4);
+    assert_int_equal(mesh.triangles[0][0], 1);
+    assert_int_equal(mesh.segment_count, 0);
+    cipc_mesh_free(&mesh);
+}
+
 #define THREE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 
 static void test_bad_vertices(void **state)
@@ -113,6 +124,7 @@ static void test_bad_faces(void **state)
     reject(THREE "f -4 -1 -2\n", 4, "vertex index -4");
     reject(THREE "f 1 2 99999999999999999999\n", 4, "vertex index");
     reject(THREE "f 1 2 2147483649\n", 4, "vertex index");
+    reject(THREE "l 1\nf 1 2 3\n", 4, "a line of 1 vertices");
     reject(THREE "f 1 2\n", 4, "a face of 2 vertices");
     reject(THREE "f 1 2 three\n", 4, "'three' is not a vertex index");
     reject(THREE "f 1 2 3.5\n", 4, "'3.5' is not a vertex index");
@@ -164,6 +176,7 @@ int main(void)
         cmocka_unit_test(test_all_that_is_allowed),
         cmocka_unit_test(test_faces_may_come_before_their_vertices),
         cmocka_unit_test(test_polygons_are_fanned),
+        cmocka_unit_test(test_all_vertices_are_kept),
         cmocka_unit_test(test_bad_vertices),
         cmocka_unit_test(test_bad_faces),
         cmocka_unit_test(test_bad_files),
