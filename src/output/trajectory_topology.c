@@ -62,7 +62,7 @@ static body_row *body_rows(const cipc_model *model)
     for (int b = 0; rows != NULL && b < model->body_count; b++) {
         const cipc_body *body = &model->bodies[b];
         memcpy(rows[b].name, body->name, strnlen(body->name, CIPC_NAME_SIZE - 1));
-        rows[b].kind = body->kind;
+        rows[b].kind = (int32_t)body->kind;
         rows[b].first_node = body->first_node;
         rows[b].node_count = body->node_count;
         rows[b].first_triangle = body->first_triangle;
