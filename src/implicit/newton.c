@@ -16,6 +16,8 @@ static const double largest_penalty = 1e8;
 /* Multiples of the mass matrix added, growing tenfold, when a factorisation meets a pivot that is not positive. */
 static const double first_shift = 1e-6;
 enum { SHIFTS = 12 };
+/* A step found with more mass added than there is may be short because of that mass alone: it says nothing of how near the minimum is. */
+static const double largest_telling_shift = 1;
 
 /* Below this multiple of the tolerance the exact Hessian is tried first: near the minimum it is positive definite as a whole and converges quadratically,
  * where the projected one may creep. After a failure it is left alone for some iterations. */
@@ -27,6 +29,7 @@ typedef struct minimisation {
     int exact_pause;
     double energy, residual, slope;
     double recent[RMS_WINDOW];
+    double shift; /* mass added to the last Newton matrix, in multiples of the mass matrix */
     double previous_gap;
     int iteration;
 } minimisation;
@@ -61,13 +64,16 @@ static cipc_status assemble(cipc_stepper *s, bool project, cipc_error *error)
     return status;
 }
 
-/* Factorise; M > 0 and every other term is projected, so this fails by rounding only: then more and more mass is added, which keeps a descent direction. */
-static cipc_status factorize(cipc_stepper *s, cipc_error *error)
+/* Factorise; M > 0 and every other term is projected, so this fails by rounding only, or in an equilibrium, which has no M, where nothing resists: then more and more mass is added, which keeps a descent direction. */
+static cipc_status factorize(cipc_stepper *s, minimisation *m, cipc_error *error)
 {
     double shift = first_shift;
     bool definite = false;
     for (int attempt = 0; attempt <= SHIFTS && !definite; attempt++, shift *= 10) {
-        if (attempt > 0) shift_diagonal(s, shift);
+        if (attempt > 0) {
+            shift_diagonal(s, shift);
+            m->shift += shift;
+        }
         cipc_status status = try_factorization(s, &definite, error);
         if (status) return status;
     }
@@ -82,6 +88,7 @@ static cipc_status factor_of_hessian(cipc_stepper *s, minimisation *m, cipc_erro
 {
     bool definite = false;
     cipc_status status = CIPC_OK;
+    m->shift = 0;
     if (!s->options.released && m->exact_pause == 0 && m->iteration > 0 && m->residual < exact_residual_factor * s->options.newton_tolerance) {
         status = assemble(s, false, error);
         if (!status) status = try_factorization(s, &definite, error);
@@ -91,7 +98,7 @@ static cipc_status factor_of_hessian(cipc_stepper *s, minimisation *m, cipc_erro
         m->exact_pause--;
     }
     status = assemble(s, true, error);
-    return status ? status : factorize(s, error);
+    return status ? status : factorize(s, m, error);
 }
 
 /* p = -H^-1 grad E into s->direction; slope p.grad E into m->slope. */
@@ -134,11 +141,12 @@ static double step_length(const cipc_stepper *s)
 
 static bool below_tolerance(const cipc_stepper *s, minimisation *m, double alpha)
 {
-    if (s->options.newton_norm == CIPC_NORM_MAX) return alpha == 1 && m->residual <= s->options.newton_tolerance;
+    bool telling = m->shift <= largest_telling_shift;
+    if (s->options.newton_norm == CIPC_NORM_MAX) return telling && alpha == 1 && m->residual <= s->options.newton_tolerance;
     double worst = 0;
     m->recent[m->iteration % RMS_WINDOW] = m->residual;
     for (int i = 0; i < RMS_WINDOW; i++) worst = fmax(worst, m->recent[i]);
-    return m->iteration + 1 >= RMS_WINDOW && worst <= s->options.newton_tolerance;
+    return telling && m->iteration + 1 >= RMS_WINDOW && worst <= s->options.newton_tolerance;
 }
 
 static cipc_status energy_now(cipc_stepper *s, double *energy, cipc_error *error)

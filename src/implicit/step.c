@@ -281,6 +281,7 @@ static cipc_status take_step(cipc_stepper *s, cipc_state *state, cipc_error *err
                  s->groups[CIPC_GROUP_STRAIN_LIMIT].count + s->groups[CIPC_GROUP_STRAIN_LIMIT_LOWER].count > 0;
     cipc_status status = split ? solve_split(s, state->time, error) : solve(s, state->time, error);
     s->stage = CIPC_STAGE_WHOLE;
+    if (split) predict(s, state); /* E is reported as of the whole step, not as of the projection */
     return status;
 }
 

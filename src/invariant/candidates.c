@@ -6,7 +6,6 @@
 #include <string.h>
 
 #include "cipc/base.h"
-#include "invariant/rest_order.h"
 #include "invariant/separation.h"
 
 /* Patches of eight primitives in one part of the search: enough to outweigh a part's overhead, few enough to balance threads. */
@@ -88,69 +87,6 @@ static bool make_parts(invariant_candidates *c)
     return true;
 }
 
-static bool all_fixed(const bool *fixed, const int *nodes, int n)
-{
-    for (int i = 0; i < n; i++) {
-        if (!fixed[nodes[i]]) { return false; }
-    }
-    return true;
-}
-
-static bool init_primitives(invariant_candidates *c, cipc_primitives *p, int kind)
-{
-    const cipc_model *m = c->model;
-    if (kind < CIPC_EDGES) {
-        p->nodes = c->nodes[kind];
-        p->size = 1; /* the number is counted already */
-    } else if (kind == CIPC_TRIANGLES) {
-        p->nodes = (const int *)m->triangles;
-        p->size = 3;
-        p->count = m->triangle_count;
-    } else {
-        p->first = kind == CIPC_SEGMENTS ? m->first_segment : 0;
-        p->nodes = m->edge_count > 0 ? m->edges[p->first] : NULL;
-        p->size = 2;
-        p->count = kind == CIPC_SEGMENTS ? m->segment_count : m->edge_count;
-    }
-    p->order = cipc_alloc((size_t)p->count, sizeof *p->order);
-    if (!cipc_patch_tree_init(&p->tree, p->count) || p->order == NULL ||
-        !cipc_rest_order(p->order, m, p->nodes, p->size, p->count, c->fixed)) {
-        return false;
-    }
-    while (p->moving < p->count && !all_fixed(c->fixed, &p->nodes[p->size * p->order[p->moving]], p->size)) { p->moving++; }
-    return true;
-}
-
-/* Is the node one of the primitives of this kind? Models made by hand may leave `interior` out. */
-static bool is_of_kind(const cipc_model *m, int node, int kind)
-{
-    cipc_body_kind body = m->bodies[m->node_body[node]].kind;
-    if (kind == CIPC_POINTS) { return m->interior == NULL || !m->interior[node]; }
-    return body == CIPC_BODY_PARTICLES || (kind == CIPC_ENDS && body == CIPC_BODY_RODS);
-}
-
-static bool list_nodes(invariant_candidates *c)
-{
-    const cipc_model *m = c->model;
-    for (int kind = 0; kind < CIPC_EDGES; kind++) {
-        cipc_primitives *p = &c->primitives[kind];
-        for (int i = 0; i < m->node_count; i++) { p->count += is_of_kind(m, i, kind) ? 1 : 0; }
-        c->nodes[kind] = cipc_alloc((size_t)p->count, sizeof *c->nodes[kind]);
-        if (c->nodes[kind] == NULL) { return false; }
-        for (int i = 0, n = 0; i < m->node_count; i++) {
-            if (is_of_kind(m, i, kind)) { c->nodes[kind][n++] = i; }
-        }
-    }
-    return true;
-}
-
-static bool some_pass(const cipc_model *m)
-{
-    bool any = m->link_count > 0;
-    for (int i = 0; m->pair_apart != NULL && i < m->body_count * m->body_count; i++) { any = any || m->pair_apart[i]; }
-    return any;
-}
-
 bool invariant_candidates_init(invariant_candidates *c, const cipc_model *model, double reach, double margin, int threads, bool skip_fixed)
 {
     memset(c, 0, sizeof *c);
@@ -159,28 +95,22 @@ bool invariant_candidates_init(invariant_candidates *c, const cipc_model *model,
     c->margin = margin;
     c->threads = threads;
     size_t n = (size_t)model->node_count;
-    c->some_pass = some_pass(model);
+    if (!invariant_exemptions_init(&c->exemptions, model)) { return false; }
     c->fixed = cipc_alloc(n, sizeof *c->fixed);
     c->made_at = cipc_alloc(3 * n, sizeof *c->made_at);
-    if (c->fixed == NULL || c->made_at == NULL || !list_nodes(c)) { return false; }
+    if (c->fixed == NULL || c->made_at == NULL) { return false; }
     for (int i = 0; i < model->node_count; i++) { c->fixed[i] = skip_fixed && model->bodies[model->node_body[i]].fixed; }
-    for (int kind = 0; kind < CIPC_PRIMITIVE_KINDS; kind++) {
-        if (!init_primitives(c, &c->primitives[kind], kind)) { return false; }
-    }
-    return make_parts(c);
+    return invariant_primitives_init(c->primitives, model, c->fixed) && make_parts(c);
 }
 
 void invariant_candidates_free(invariant_candidates *c)
 {
-    for (int kind = 0; kind < CIPC_PRIMITIVE_KINDS; kind++) {
-        cipc_free(c->primitives[kind].order);
-        cipc_patch_tree_free(&c->primitives[kind].tree);
-    }
+    invariant_primitives_free(c->primitives);
     for (int i = 0; c->parts != NULL && i < c->part_count; i++) {
         cipc_free(c->parts[i].pairs);
         cipc_free(c->parts[i].patches.places);
     }
-    for (int kind = 0; kind < CIPC_EDGES; kind++) { cipc_free(c->nodes[kind]); }
+    invariant_exemptions_free(&c->exemptions);
     cipc_free(c->fixed);
     cipc_free(c->made_at);
     cipc_free(c->parts);
@@ -286,7 +216,7 @@ static bool offer_pair(const invariant_candidates *c, invariant_candidate_part *
     }
     const int *na = &pa->nodes[pa->size * a], *nb = &pb->nodes[pb->size * b];
     bool skip = is_incident(na, pa->size, nb, pb->size);
-    skip = skip || (c->some_pass && !cipc_model_meet(c->model, na, pa->size, nb, pb->size));
+    skip = skip || invariant_exempt(&c->exemptions, na, pa->size, nb, pb->size);
     skip = skip || (c->sweep_to == NULL && is_out_of_reach(c, part->kind, na, pa->size, nb, pb->size, x));
     return skip || append_pair(part, number_of(pa, a), number_of(pb, b));
 }

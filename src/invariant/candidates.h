@@ -7,20 +7,8 @@
 #include <stdbool.h>
 
 #include "cipc/model.h"
-#include "invariant/patch_tree.h"
-
-/* The primitives of one kind, all bodies together. */
-typedef struct cipc_primitives {
-    int count, size;  /* size: nodes of one, 1..3 */
-    const int *nodes; /* count * size */
-    int first;        /* of edges and triangles: the model's number of the first one */
-    int *order;       /* item at each place of the tree: those that are not fixed first, then by body, then along the rest shape */
-    int moving;       /* the first `moving` places are those that are not fixed (all, if fixed pairs count) */
-    cipc_patch_tree tree;
-} cipc_primitives;
-
-/* Points: all nodes but those inside volumes. Ends: nodes of rods, and particles. */
-enum { CIPC_POINTS = 0, CIPC_ENDS, CIPC_PARTICLES, CIPC_EDGES, CIPC_SEGMENTS, CIPC_TRIANGLES, CIPC_PRIMITIVE_KINDS };
+#include "invariant/exemptions.h"
+#include "invariant/primitives.h"
 
 /* The kinds of pairs whose distance counts, numbered as cipc_pair_kind, and that of M1. */
 typedef enum invariant_candidate_kind {
@@ -47,9 +35,8 @@ typedef struct invariant_candidates {
     const cipc_model *model;
     double reach, margin;
     int threads;
-    int *nodes[CIPC_EDGES]; /* of points, ends and particles, ascending */
     bool *fixed;            /* of a node: in a fixed body, and fixed pairs do not count */
-    bool some_pass;         /* bodies that are apart, or nodes sewn together */
+    invariant_exemptions exemptions;
     cipc_primitives primitives[CIPC_PRIMITIVE_KINDS];
     invariant_candidate_part *parts;
     int part_count;

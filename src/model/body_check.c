@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/vector.h"
 #include "model/measures.h"
 
 /* One number that must be in a range. */
@@ -73,6 +74,35 @@ static cipc_status check_orthotropic(const cipc_body_description *d, cipc_error 
     if (!cipc_numbers_finite(m->warp, 3) || !cipc_numbers_finite(m->weft, 3))
         return cipc_fail(error, CIPC_E_OUT_OF_RANGE, d->name, "the direction of warp or weft is not finite");
     return check_numbers(checks, sizeof checks / sizeof *checks, d->name, error);
+}
+
+/* Directions this near to the normal of a triangle (sine of the angle to it) have no direction in its plane that doubles could tell. */
+static const double least_sine = 1e-9;
+
+static bool lies_across(const double direction[3], const double normal[3])
+{
+    double r[3];
+    v3_cross(r, direction, normal);
+    return v3_norm(r) <= least_sine * v3_norm(direction) * v3_norm(normal);
+}
+
+/* Warp and weft are carried into the plane of each rest triangle, and must have one there. After the triangles have been checked. */
+static cipc_status check_yarns(const cipc_body_description *d, cipc_error *error)
+{
+    const cipc_orthotropic_material *m = &d->material.orthotropic;
+    bool weft = v3_norm2(m->weft) > 0;
+    if (d->kind != CIPC_BODY_SHELL || d->material.membrane != CIPC_MEMBRANE_ORTHOTROPIC) return CIPC_OK;
+    for (int t = 0; t < d->triangle_count; t++) {
+        const int *v = d->triangles[t];
+        double e1[3], e2[3], n[3];
+        v3_sub(e1, d->rest + 3 * v[1], d->rest + 3 * v[0]);
+        v3_sub(e2, d->rest + 3 * v[2], d->rest + 3 * v[0]);
+        v3_cross(n, e1, e2);
+        if (lies_across(m->warp, n) || (weft && lies_across(m->weft, n)))
+            return cipc_fail(error, CIPC_E_OUT_OF_RANGE, d->name, "membrane.%s is at right angles to triangle %d (%d %d %d), where it has no direction",
+                             lies_across(m->warp, n) ? "warp" : "weft", t, v[0], v[1], v[2]);
+    }
+    return CIPC_OK;
 }
 
 static cipc_status check_solid(const cipc_body_description *d, cipc_error *error)
@@ -189,5 +219,6 @@ static cipc_status check_mesh(const cipc_body_description *d, cipc_error *error)
 cipc_status cipc_body_check(const cipc_body_description *d, cipc_error *error)
 {
     cipc_status status = check_material(d, error);
-    return status ? status : check_mesh(d, error);
+    if (!status) status = check_mesh(d, error);
+    return status ? status : check_yarns(d, error);
 }

@@ -355,6 +355,19 @@ static void test_nodes_inside_volumes_do_not_count(void **state)
     hand_model_destroy(h);
 }
 
+/* A node of a triangle is on a surface, whatever its mark says. */
+static void test_marks_of_surface_nodes_are_not_believed(void **state)
+{
+    (void)state;
+    const double point[3] = {0, 0, 0.125};
+    hand_model *h = point_over_triangle(0.25, 0.25, point, flat);
+    int a = hand_node(h, 0, 0, 0.5, 9), b = hand_node(h, 0, 0.5, 0, 9);
+    hand_triangle(h, 0, a, b);
+    hand_interior(h, 0);
+    assert_int_equal(look(h).status, CIPC_E_VIOLATED_GAP);
+    hand_model_destroy(h);
+}
+
 static void test_bodies_apart_pass(void **state)
 {
     (void)state;
@@ -470,6 +483,7 @@ int main(void)
         cmocka_unit_test(test_particles_one_ulp_apart),
         cmocka_unit_test(test_rope_through_a_sheet),
         cmocka_unit_test(test_nodes_inside_volumes_do_not_count),
+        cmocka_unit_test(test_marks_of_surface_nodes_are_not_believed),
         cmocka_unit_test(test_bodies_apart_pass),
         cmocka_unit_test(test_sewn_nodes_pass),
         cmocka_unit_test(test_worst_pair_is_named),

@@ -36,7 +36,7 @@ void hand_model_destroy(hand_model *h)
     free(m->tetrahedra);
     free(m->interior);
     free(m->pair_apart);
-    free(m->links);
+    free(m->stitches);
     free(h->x);
     free(h);
 }
@@ -188,22 +188,11 @@ void hand_apart(hand_model *h, int body_a, int body_b)
     h->model.pair_apart[body_a * n + body_b] = h->model.pair_apart[body_b * n + body_a] = true;
 }
 
-static int compare_links(const void *a, const void *b)
-{
-    const int *p = a, *q = b;
-    return p[0] != q[0] ? p[0] - q[0] : p[1] - q[1];
-}
-
 void hand_sew(hand_model *h, int node_a, int node_b)
 {
     cipc_model *m = &h->model;
-    for (int order = 0; order < 2; order++) {
-        m->links = grow(m->links, (int)m->link_count, sizeof *m->links);
-        m->links[m->link_count][0] = order == 0 ? node_a : node_b;
-        m->links[m->link_count][1] = order == 0 ? node_b : node_a;
-        m->link_count++;
-    }
-    qsort(m->links, (size_t)m->link_count, sizeof *m->links, compare_links);
+    m->stitches = grow(m->stitches, m->stitch_count, sizeof *m->stitches);
+    m->stitches[m->stitch_count++] = (cipc_stitching){.nodes = {node_a, node_b, node_b}, .stiffness = 1};
 }
 
 void hand_translate(hand_model *h, const double t[3])

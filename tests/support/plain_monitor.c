@@ -9,8 +9,11 @@
 
 static bool is_sewn(const cipc_model *m, int a, int b)
 {
-    for (long i = 0; i < m->link_count; i++) {
-        if (m->links[i][0] == a && m->links[i][1] == b) { return true; }
+    for (int i = 0; i < m->stitch_count; i++) {
+        const int *n = m->stitches[i].nodes;
+        for (int end = 1; end < 3; end++) {
+            if ((n[0] == a && n[end] == b) || (n[0] == b && n[end] == a)) { return true; }
+        }
     }
     return false;
 }

@@ -189,6 +189,28 @@ static void test_bad_bodies(void **state)
     }
 }
 
+/* Warp or weft across a triangle: the triangle lies in the plane y = 7. */
+static void test_yarns_across_the_cloth(void **state)
+{
+    (void)state;
+    const double good[3] = {1, 5, 0}, across[3] = {0, 2, 0};
+    for (int i = 0; i < 4; i++) {
+        cipc_body_description d[4];
+        cipc_model *m = NULL;
+        cipc_error error;
+        describe(d);
+        cipc_material *material = &d[3].material;
+        material->membrane = CIPC_MEMBRANE_ORTHOTROPIC;
+        material->orthotropic = (cipc_orthotropic_material){.moduli = {2, 1, 2, 1}, .limits = {0.1, 0.1, 0.1}};
+        memcpy(material->orthotropic.warp, i == 1 ? across : good, sizeof good);
+        if (i > 1) memcpy(material->orthotropic.weft, i == 2 ? across : good, sizeof good);
+        cipc_status status = cipc_model_create(&m, d + 3, 1, gravity, &error);
+        assert_int_equal(status, i == 1 || i == 2 ? CIPC_E_OUT_OF_RANGE : CIPC_OK);
+        if (status) assert_non_null(strstr(error.what, i == 1 ? "warp" : "weft"));
+        cipc_model_destroy(m);
+    }
+}
+
 static void test_out_of_memory(void **state)
 {
     (void)state;
@@ -213,7 +235,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_masses),       cmocka_unit_test(test_topology),           cmocka_unit_test(test_surface_is_outward), cmocka_unit_test(test_weights),
-        cmocka_unit_test(test_inner_nodes),  cmocka_unit_test(test_stitches_and_apart), cmocka_unit_test(test_bad_bodies),         cmocka_unit_test(test_out_of_memory),
+        cmocka_unit_test(test_inner_nodes),  cmocka_unit_test(test_stitches_and_apart), cmocka_unit_test(test_bad_bodies),         cmocka_unit_test(test_yarns_across_the_cloth), cmocka_unit_test(test_out_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

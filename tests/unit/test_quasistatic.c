@@ -101,6 +101,24 @@ static void test_mass_damping(void **state)
     sheet_scene_free(&scene);
 }
 
+/* A triangle that nothing holds falls for ever: there is no equilibrium, and none may be reported. It is so stiff that its Newton matrix, which has no mass in it, is positive definite only
+ * with more mass added than there is: the Newton steps are short then, and mean nothing. */
+static void test_no_equilibrium(void **state)
+{
+    (void)state;
+    for (int stiff = 0; stiff < 2; stiff++) {
+        sheet_scene scene;
+        cipc_body_description *body = hang(&scene);
+        body->material.membrane_young = stiff ? 1e23 : young;
+        scene.options.quasistatic = true;
+        scene.options.newton_iterations = 30;
+        sheet_scene_build(&scene);
+        cipc_status status = sheet_try_step(&scene);
+        if (status == CIPC_OK) fail_msg("stiff %d: an equilibrium %g m below", stiff, -1 - scene.state->position[7]);
+        sheet_scene_free(&scene);
+    }
+}
+
 /* A stretched triangle let go: one step of implicit Euler of a damped oscillator, (1 + b h k/m + h^2 k/m) x' = x (1 + b h k/m) for small x at rest before. */
 static void test_stiffness_damping(void **state)
 {
@@ -130,6 +148,7 @@ int main(void)
         cmocka_unit_test(test_equilibrium),
         cmocka_unit_test(test_inertia_makes_a_difference),
         cmocka_unit_test(test_mass_damping),
+        cmocka_unit_test(test_no_equilibrium),
         cmocka_unit_test(test_stiffness_damping),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
