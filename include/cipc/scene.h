@@ -45,13 +45,13 @@ cipc_status cipc_mesh_arc(cipc_mesh *mesh, double radius, double angle, int segm
 /* count[0] x count[1] x count[2] straight vertical (y) rods of a length, centred, `spacing` from axis to axis in x and z and from middle to middle in y; `round`: of each layer only
  * those within the inscribed ellipse. Nodes rod by rod from below, x fastest, then z, then y. */
 cipc_status cipc_mesh_rods(cipc_mesh *mesh, const int count[3], const double spacing[3], double length, int segments, bool round, cipc_error *error);
-/* Interwoven net of n + n rods along x and z, extent `size`, `segments` each; where two cross one is `lift` above and the other below, alternately. */
+/* Interwoven net of n + n rods along x and z, extent `size`, `segments` each; where two cross one is `lift` above and the other below, alternately. segments >= 2 n. */
 cipc_status cipc_mesh_net(cipc_mesh *mesh, double size, int n, int segments, double lift, cipc_error *error);
 
 /* Particles: a lattice of count[0] x count[1] x count[2] nodes around the origin, each moved by up to `jitter` in every coordinate (seeded). */
 cipc_status cipc_mesh_lattice(cipc_mesh *mesh, const int count[3], const double spacing[3], double jitter, unsigned long seed, cipc_error *error);
 
-/* Volumes. Box around the origin, each cell cut into six (or five, alternately) tetrahedra; ball: a box lattice carried onto the ball; solid cylinder about y likewise. */
+/* Volumes. Box around the origin, each cell cut into six tetrahedra; ball: a cube of `cells`^3 carried onto the ball; solid cylinder about y likewise, `cells_across` cells wide. Both of these numbers are even. */
 cipc_status cipc_mesh_box(cipc_mesh *mesh, const double size[3], const int cells[3], cipc_error *error);
 cipc_status cipc_mesh_ball(cipc_mesh *mesh, double radius, int cells, cipc_error *error);
 cipc_status cipc_mesh_solid_cylinder(cipc_mesh *mesh, double radius, double length, int cells_across, int cells_along, cipc_error *error);

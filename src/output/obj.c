@@ -1,7 +1,7 @@
 /* Wavefront OBJ: every number with the 17 digits that give the same double back. Triangles are faces, segments lines, particles points. */
 #include "cipc/output.h"
 #include "output/atomic_file.h"
-#include "output/particles.h"
+#include "output/particle_nodes.h"
 
 #include <ctype.h>
 

@@ -1,7 +1,7 @@
 /* summary.json: what a run did and what may be claimed of it. */
 #include "cipc/output.h"
 #include "output/atomic_file.h"
-#include "output/particles.h"
+#include "output/particle_nodes.h"
 #include "base/json_number.h"
 #include "output/versions.h"
 

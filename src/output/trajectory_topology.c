@@ -1,5 +1,5 @@
 /* The parts of a trajectory file that never change: the mesh, the bodies and the scene. */
-#include "output/particles.h"
+#include "output/particle_nodes.h"
 #include "output/trajectory_file.h"
 
 #include <stddef.h>

@@ -4,7 +4,7 @@
  * inside would hide behind it. */
 #include "cipc/output.h"
 #include "output/atomic_file.h"
-#include "output/particles.h"
+#include "output/particle_nodes.h"
 
 #include <math.h>
 

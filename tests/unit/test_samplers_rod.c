@@ -8,46 +8,15 @@
 #include <math.h>
 
 #include "cipc/energy.h"
-
-enum { SAMPLES = 200, MAX_N = 12, MAX_PARAMS = 1024 };
-
-/* Every draw is feasible, and at least nine in ten land where they are aimed (rounding moves some at the edges of the narrow branches). */
-static void check_sampler(const char *name)
-{
-    const cipc_energy *energy = cipc_energy_find(name);
-    union {
-        double align;
-        unsigned char bytes[MAX_PARAMS];
-    } params;
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    assert_non_null(rng);
-    assert_true(energy->params_size <= sizeof params);
-    for (int branch = 0; branch < energy->branch_count; branch++) {
-        int hits = 0;
-        for (int k = 0; k < SAMPLES; k++) {
-            double x[MAX_N];
-            energy->sample(rng, branch, x, &params);
-            assert_true(isfinite(energy->value(x, &params)));
-            hits += energy->branch(x, &params) == branch;
-        }
-        if (hits < SAMPLES * 9 / 10) fail_msg("%s: branch %s hit %d times of %d", name, energy->branch_names[branch], hits, SAMPLES);
-    }
-    gsl_rng_free(rng);
-}
+#include "support/sampler_trial.h"
 
 static void test_samplers_hit_their_branches(void **state)
 {
     (void)state;
-    check_sampler("rod_stretching");
-    check_sampler("rod_bending");
-    check_sampler("stitch");
-    check_sampler("damping");
-}
-
-static void assert_branch(const char *energy_name, const double *x, const void *params, const char *branch)
-{
-    const cipc_energy *energy = cipc_energy_find(energy_name);
-    assert_string_equal(energy->branch_names[energy->branch(x, params)], branch);
+    sampler_check("rod_stretching");
+    sampler_check("rod_bending");
+    sampler_check("stitch");
+    sampler_check("damping");
 }
 
 static void test_stretching_classifier(void **state)
@@ -56,7 +25,7 @@ static void test_stretching_classifier(void **state)
     const cipc_rod_stretching p = {.stiffness = 1, .length = 2};
     const double lengths[] = {2, 2.1, 1.9, 0.01};
     const char *const names[] = {"rest", "stretched", "compressed", "near_collapsed"};
-    for (int i = 0; i < 4; i++) assert_branch("rod_stretching", (double[]){0, 0, 0, 0, lengths[i], 0}, &p, names[i]);
+    for (int i = 0; i < 4; i++) sampler_assert_branch("rod_stretching", (double[]){0, 0, 0, 0, lengths[i], 0}, &p, names[i]);
 }
 
 static void test_bending_classifier(void **state)
@@ -68,24 +37,24 @@ static void test_bending_classifier(void **state)
     const cipc_rod_bending straight = {.stiffness = 1}, curved = {.stiffness = 1, .rest_curvature = 2};
     for (int i = 0; i < 4; i++) {
         const double x[9] = {-1, 0, 0, 0, 0, 0, cos(angles[i]), 0, sin(angles[i])};
-        assert_branch("rod_bending", x, &straight, names[i]);
-        assert_branch("rod_bending", x, &curved, curved_names[i]);
+        sampler_assert_branch("rod_bending", x, &straight, names[i]);
+        sampler_assert_branch("rod_bending", x, &curved, curved_names[i]);
     }
     const double right[9] = {-1, 0, 0, 0, 0, 0, 0, 1, 0}, brief[9] = {-1, 0, 0, 0, 0, 0, 0, 0.01, 0};
-    assert_branch("rod_bending", right, &curved, "at_curved_rest");
-    assert_branch("rod_bending", brief, &curved, "short_segment_curved_rest");
-    assert_branch("rod_bending", brief, &straight, "short_segment");
+    sampler_assert_branch("rod_bending", right, &curved, "at_curved_rest");
+    sampler_assert_branch("rod_bending", brief, &curved, "short_segment_curved_rest");
+    sampler_assert_branch("rod_bending", brief, &straight, "short_segment");
 }
 
 static void test_stitch_classifier(void **state)
 {
     (void)state;
     const double x[9] = {1, 1, 0, 0, 0, 0, 4, 0, 0}, closed[9] = {1, 0, 0, 0, 0, 0, 4, 0, 0};
-    assert_branch("stitch", x, &(cipc_stitch){1, 0}, "at_first");
-    assert_branch("stitch", x, &(cipc_stitch){1, 1}, "at_second");
-    assert_branch("stitch", x, &(cipc_stitch){1, 0.25}, "inside");
-    assert_branch("stitch", closed, &(cipc_stitch){1, 0.25}, "closed");
-    assert_branch("stitch", closed, &(cipc_stitch){1, 0}, "at_first");
+    sampler_assert_branch("stitch", x, &(cipc_stitch){1, 0}, "at_first");
+    sampler_assert_branch("stitch", x, &(cipc_stitch){1, 1}, "at_second");
+    sampler_assert_branch("stitch", x, &(cipc_stitch){1, 0.25}, "inside");
+    sampler_assert_branch("stitch", closed, &(cipc_stitch){1, 0.25}, "closed");
+    sampler_assert_branch("stitch", closed, &(cipc_stitch){1, 0}, "at_first");
 }
 
 static void test_damping_classifier(void **state)
@@ -100,15 +69,15 @@ static void test_damping_classifier(void **state)
         H[2 * n + 2] = H[j * n + j] = 1;
         H[2 * n + j] = H[j * n + 2] = -1;
         cipc_damping_init(&p, 1, last + 1, start, H);
-        assert_branch("damping", x, &p, "at_start");
+        sampler_assert_branch("damping", x, &p, "at_start");
         x[1] = 1;
-        assert_branch("damping", x, &p, names[last - 1]);
+        sampler_assert_branch("damping", x, &p, names[last - 1]);
         for (int i = 1; i < n; i += 3) x[i] = 1 + 0.001 * i;
-        assert_branch("damping", x, &p, "in_flight");
+        sampler_assert_branch("damping", x, &p, "in_flight");
         x[1] = 2;
         H[2 * n + 2] = 2;
         cipc_damping_init(&p, 1, last + 1, start, H);
-        assert_branch("damping", x, &p, "grounded");
+        sampler_assert_branch("damping", x, &p, "grounded");
     }
 }
 

@@ -1,6 +1,6 @@
 /* Which nodes of a model are particles: those of its bodies of particles. */
-#ifndef OUTPUT_PARTICLES_H
-#define OUTPUT_PARTICLES_H
+#ifndef OUTPUT_PARTICLE_NODES_H
+#define OUTPUT_PARTICLE_NODES_H
 
 #include "cipc/model.h"
 

@@ -1,5 +1,5 @@
 /* Which nodes of a model are particles. */
-#include "output/particles.h"
+#include "output/particle_nodes.h"
 
 int cipc_particle_count(const cipc_model *model)
 {

@@ -5,7 +5,7 @@
 #include <setjmp.h>
 #include <cmocka.h>
 
-#include "output/particles.h"
+#include "output/particle_nodes.h"
 #include "support/every_kind.h"
 #include "support/failing_memory.h"
 
