@@ -137,11 +137,54 @@ static void test_limited_strip(void **state)
     }
 }
 
+/* Pushed instead of pulled: w t E (1 - s^2)/2 s + kappa w t |b'(s)| = W with a lower limit, from which s stays away under any weight. */
+static double expected_compression(double stress, double limit, double stiffness)
+{
+    double low = limit, high = 1;
+    for (int k = 0; k < 200; k++) {
+        double s = 0.5 * (low + high), b[3];
+        if (!(s > low && s < high)) break;
+        cipc_strain_limit_barrier(s, limit, 1, b);
+        if (young * (1 - s * s) / 2 * s - stiffness * b[1] < stress) high = s;
+        else low = s;
+    }
+    return high;
+}
+
+static void test_limited_compression(void **state)
+{
+    (void)state;
+    const double limit = 0.95, stiffness = 1e3, a[3] = {-0.5, 0, 0}, b[3] = {0.5, 0, 0}, c[3] = {0, -1, 0};
+    const int held[2] = {0, 1};
+    for (int decade = 0; decade <= 4; decade += 2) {
+        sheet_scene scene;
+        char quantity[64];
+        double weight = pow(10, decade);
+        sheet_scene_init(&scene);
+        cipc_body_description *body = sheet_add_triangle(&scene, "strip", a, b, c);
+        body->material = (cipc_material){.density = density, .thickness = thickness, .membrane = CIPC_MEMBRANE_STVK, .membrane_young = young, .strain_lower_limit = limit, .strain_lower_activation = 1, .strain_stiffness = stiffness};
+        scene.gravity[1] = 9.81 * weight;
+        scene.options.quasistatic = true;
+        scene.options.newton_tolerance = 1e-9;
+        sheet_scene_model(&scene);
+        sheet_hold(&scene, held, 2, NULL, INFINITY);
+        sheet_scene_stepper(&scene);
+        sheet_watch(&scene);
+        sheet_step(&scene);
+        double s = -scene.state->position[7], wanted = expected_compression(density * 9.81 * weight / 3, limit, stiffness * scene.state->strain_stiffness_factor);
+        if (!(s > limit && scene.max_stretch_ratio < 1)) fail_msg("load 1e%d: s %.17g, limit used %.17g, node at %g %g %g", decade, s, scene.max_stretch_ratio, scene.state->position[6], scene.state->position[7], scene.state->position[8]);
+        (void)snprintf(quantity, sizeof quantity, "1 - s at a load of 1e%d", decade);
+        validation_row("strip with lower strain limit 0.95", quantity, 1 - wanted, 1 - s, 1e-5);
+        sheet_scene_free(&scene);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_cantilever),
         cmocka_unit_test(test_limited_strip),
+        cmocka_unit_test(test_limited_compression),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
