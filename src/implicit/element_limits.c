@@ -116,10 +116,10 @@ static double volume_speed(const void *params, const double *y, const double *d)
 }
 
 /* sigma_1 is a norm of F: convex. */
-const element_limit element_limit_upper = {upper_slack, NULL};
-const element_limit element_limit_lower = {lower_slack, lower_speed};
-const element_limit element_limit_strains = {strains_slack, strains_speed};
-const element_limit element_limit_volume = {volume_slack, volume_speed};
+const element_limit implicit_limit_upper = {upper_slack, NULL};
+const element_limit implicit_limit_lower = {lower_slack, lower_speed};
+const element_limit implicit_limit_strains = {strains_slack, strains_speed};
+const element_limit implicit_limit_volume = {volume_slack, volume_speed};
 
 static double slack_at(const element_limit *limit, const void *params, int nodes, const double *y, const double *d, double t)
 {
@@ -153,7 +153,7 @@ static double advance(const element_limit *limit, const void *params, int nodes,
     return t;
 }
 
-double element_limit_step(const element_limit *limit, const void *params, int nodes, const double *y, const double *d, double step)
+double implicit_limit_step(const element_limit *limit, const void *params, int nodes, const double *y, const double *d, double step)
 {
     return limit->speed ? advance(limit, params, nodes, y, d, step) : bisect(limit, params, nodes, y, d, step);
 }

@@ -11,12 +11,12 @@ typedef struct element_limit {
     double (*speed)(const void *params, const double *y, const double *d);
 } element_limit;
 
-extern const element_limit element_limit_upper;   /* largest principal stretch, cipc_strain_limit */
-extern const element_limit element_limit_lower;   /* least principal stretch, cipc_strain_limit */
-extern const element_limit element_limit_strains; /* Green strains, cipc_orthotropic */
-extern const element_limit element_limit_volume;  /* positive volume, cipc_volume */
+extern const element_limit implicit_limit_upper;   /* largest principal stretch, cipc_strain_limit */
+extern const element_limit implicit_limit_lower;   /* least principal stretch, cipc_strain_limit */
+extern const element_limit implicit_limit_strains; /* Green strains, cipc_orthotropic */
+extern const element_limit implicit_limit_volume;  /* positive volume, cipc_volume */
 
 /* The largest part of [0, step] over which the limit is certain to be kept, or one at whose end a tenth of the slack is left; 0 if it is not kept at the start. */
-double element_limit_step(const element_limit *limit, const void *params, int nodes, const double *y, const double *d, double step);
+double implicit_limit_step(const element_limit *limit, const void *params, int nodes, const double *y, const double *d, double step);
 
 #endif

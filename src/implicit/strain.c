@@ -16,11 +16,11 @@ typedef struct limited_group {
     int group;
     const element_limit *limit;
 } limited_group;
-static const limited_group limited[] = {{CIPC_GROUP_STRAIN_LIMIT, &element_limit_upper},
-                                        {CIPC_GROUP_STRAIN_LIMIT_LOWER, &element_limit_lower},
-                                        {CIPC_GROUP_ORTHOTROPIC, &element_limit_strains},
-                                        {CIPC_GROUP_COROTATIONAL, &element_limit_volume},
-                                        {CIPC_GROUP_VOLUME_NEO_HOOKEAN, &element_limit_volume}};
+static const limited_group limited[] = {{CIPC_GROUP_STRAIN_LIMIT, &implicit_limit_upper},
+                                        {CIPC_GROUP_STRAIN_LIMIT_LOWER, &implicit_limit_lower},
+                                        {CIPC_GROUP_ORTHOTROPIC, &implicit_limit_strains},
+                                        {CIPC_GROUP_COROTATIONAL, &implicit_limit_volume},
+                                        {CIPC_GROUP_VOLUME_NEO_HOOKEAN, &implicit_limit_volume}};
 enum { LIMITED = sizeof limited / sizeof *limited };
 
 /* Element i of a group: its constants, and whole-model vectors at its nodes. */
@@ -65,7 +65,7 @@ double cipc_strain_step(cipc_stepper *s, const double *x, const double *p)
             double y[12], d[12];
             gather(g, i, x, y);
             gather(g, i, p, d);
-            double own = element_limit_step(l->limit, element_params(g, i), g->energy->nodes, y, d, step);
+            double own = implicit_limit_step(l->limit, element_params(g, i), g->energy->nodes, y, d, step);
             if (own == step) continue;
             step = own;
             limiting = g->nodes + g->energy->nodes * i;

@@ -28,7 +28,7 @@ typedef struct subject {
 static void make(subject *s, int which)
 {
     const double moduli[4] = {2, 1, 2, 1}, limits[3] = {0.3, 0.3, 0.2}, warp[3] = {1, 0.3, 0};
-    const element_limit *const all[LIMITS] = {&element_limit_upper, &element_limit_lower, &element_limit_strains, &element_limit_volume};
+    const element_limit *const all[LIMITS] = {&implicit_limit_upper, &implicit_limit_lower, &implicit_limit_strains, &implicit_limit_volume};
     assert_true(cipc_strain_limit_init(&s->upper, rest, 1, 1.3, 1, 1) && cipc_strain_limit_lower_init(&s->lower, rest, 1, 0.7, 1, 1));
     assert_true(cipc_orthotropic_init(&s->cloth, rest, 1, warp, NULL, moduli, limits) && cipc_volume_init(&s->volume, rest, 1, 0.3));
     const void *const params[LIMITS] = {&s->upper, &s->lower, &s->cloth, &s->volume};
@@ -61,7 +61,7 @@ static void test_kept_all_along(void **state)
         for (int path = 0; path < PATHS; path++) {
             double d[12], step;
             random_fill(&seed, d, 3 * s.nodes, path % 2 ? 3 : 0.3);
-            step = element_limit_step(s.limit, s.params, s.nodes, rest, d, 1);
+            step = implicit_limit_step(s.limit, s.params, s.nodes, rest, d, 1);
             assert_true(step > 0 && step <= 1);
             for (int k = 0; k <= SAMPLES; k++)
                 if (!(slack_at(&s, d, step * k / SAMPLES) > 0)) fail_msg("limit %d, path %d: step %g, but at %g of it the slack is %g", which, path, step, (double)k / SAMPLES, slack_at(&s, d, step * k / SAMPLES));
@@ -83,7 +83,7 @@ static void test_turning_inside_out(void **state)
     make(&s, 1);
     d[7] = -2;
     assert_true(slack_at(&s, d, 1) > 0);
-    double step = element_limit_step(s.limit, s.params, 3, rest, d, 1); /* sigma_2 = 1 - 2 t comes to 0.7 at 0.15 */
+    double step = implicit_limit_step(s.limit, s.params, 3, rest, d, 1); /* sigma_2 = 1 - 2 t comes to 0.7 at 0.15 */
     assert_true(step < 0.15 && step > 0.15 * 0.89);
 }
 
@@ -96,7 +96,7 @@ static void test_each_node_through_its_face(void **state)
     for (int node = 1; node < 4; node++) {
         double d[12] = {0};
         d[3 * node + node - 1] = -2;
-        double step = element_limit_step(s.limit, s.params, 4, rest, d, 1);
+        double step = implicit_limit_step(s.limit, s.params, 4, rest, d, 1);
         assert_true(step < 0.5 && step >= 0.45);
     }
 }
@@ -110,7 +110,7 @@ static void test_shear_alone(void **state)
     cipc_orthotropic cloth;
     assert_true(cipc_orthotropic_init(&cloth, rest, 1, warp, NULL, moduli, limits));
     d[6] = 0.7;
-    double step = element_limit_step(&element_limit_strains, &cloth, 3, rest, d, 1);
+    double step = implicit_limit_step(&implicit_limit_strains, &cloth, 3, rest, d, 1);
     assert_true(0.7 * step < 0.4 && 0.7 * step >= 0.36);
 }
 
@@ -125,8 +125,8 @@ static void test_start_beyond(void **state)
         if (which == 3) y[11] = -1;
         else y[7] = which == 0 ? 2 : 0.1;
         assert_true(s.limit->slack(s.params, y) < 0);
-        assert_true(element_limit_step(s.limit, s.params, s.nodes, y, d, 1) == 0);
-        assert_true(element_limit_step(s.limit, s.params, s.nodes, rest, d, 0.5) == 0.5); /* and one that rests may go on */
+        assert_true(implicit_limit_step(s.limit, s.params, s.nodes, y, d, 1) == 0);
+        assert_true(implicit_limit_step(s.limit, s.params, s.nodes, rest, d, 0.5) == 0.5); /* and one that rests may go on */
     }
 }
 
