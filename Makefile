@@ -72,7 +72,7 @@ all: $(PROGRAM) $(STATIC) $(SHARED) ## the program build/cipc and the libraries 
 deps: ## install the Debian packages that the build, the tests and the demo need, with sudo when not root; nothing when all are there
 	@ci/install-deps
 
-deps-all: ## the same, and the packages of coverage, sanitize, valgrind, lint, format and CC=clang
+deps-all: ## the same, and the packages of coverage, sanitize, valgrind, lint, format, the plots of validation and CC=clang
 	@ci/install-deps --all
 
 demo: ## install what is missing, build, run the drape scene into build/demo and say where the pictures are
@@ -95,12 +95,12 @@ verify: ## the functions of the solver against exact and MPFR arithmetic: a larg
 	$(BUILD)/cipc verify all --samples $(SAMPLES) --seed $(SEED) --threads $(shell nproc 2>/dev/null || echo 1) --json $(BUILD)/verify.json \
 	    --worst $(BUILD)/verify-worst.jsonl $(if $(PUBLIC_QUERIES),--data $(PUBLIC_QUERIES))
 
-VALIDATION_TESTS := rods shells volumes
-validation: ## closed forms of physics: run their tests and write the table of docs/validation.md
+VALIDATION_TESTS := plane rods shells volumes hertz locking splitting stack
+validation: ## physics against closed forms: run their tests, write the table and the plots of docs/validation.md
 	$(SUBMAKE) all $(VALIDATION_TESTS:%=$(BUILD)/tests/scenes/test_%)
 	@rm -f $(BUILD)/validation.tsv
 	@for t in $(VALIDATION_TESTS); do CIPC_VALIDATION=$(BUILD)/validation.tsv $(BUILD)/tests/scenes/test_$$t >/dev/null 2>$(BUILD)/validation.log || { cat $(BUILD)/validation.log; exit 1; }; done
-	@ci/validation $(BUILD)/validation.tsv docs/validation.md
+	@ci/validation $(BUILD)/validation.tsv docs/validation.md docs/images
 
 mutants: ## plant every fault of ci/mutants.list and see the named check reject it; docs/mutants.md
 	$(SUBMAKE) all tests

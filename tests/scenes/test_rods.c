@@ -100,6 +100,7 @@ static void assert_second_order(const char *name, double (*measure)(int, double)
     for (int k = 0; k < 3; k++) {
         measured = measure(8 << k, load);
         error[k] = fabs(measured - expected);
+        validation_point("rod-convergence", name, 8 << k, error[k] / expected);
     }
     double order = log2(error[1] / error[2]);
     validation_row(name, "tip deflection / length", expected, measured, tolerance);
@@ -131,6 +132,8 @@ static void test_large_deflection(void **state)
 {
     (void)state;
     double depth = elastica_tip(20);
+    for (double load = 0.5; load < 25; load += 0.5) validation_point("elastica", "elastica", load, elastica_tip(load));
+    for (double load = 2; load < 25; load += 4) validation_point("elastica", "rod of 16 segments", load, cantilever(16, load));
     assert_true(depth > 0.6 && depth < 1); /* far from linear: 2.5 */
     assert_second_order("rod cantilever, heavy elastica, w L^3/EI = 20 (E9)", cantilever, 20, depth, 5e-3);
 }

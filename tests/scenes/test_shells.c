@@ -133,6 +133,8 @@ static void test_limited_strip(void **state)
         assert_true(s < limit && scene.max_stretch_ratio < 1);
         (void)snprintf(quantity, sizeof quantity, "s - 1 at a load of 1e%d", decade);
         validation_row("strip with strain limit 1.05 (E7)", quantity, wanted - 1, s - 1, 1e-5);
+        validation_point("strip", "balance of forces", density * 9.81 * weight / 3, wanted - 1);
+        validation_point("strip", "strip", density * 9.81 * weight / 3, s - 1);
         sheet_scene_free(&scene);
     }
 }

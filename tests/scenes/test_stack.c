@@ -12,6 +12,7 @@
 
 #include "cipc/implicit.h"
 #include "cipc/invariant.h"
+#include "support/validation.h"
 
 enum { SHEETS = 10, NODES = 9, TRIANGLES = 8 };
 
@@ -100,9 +101,14 @@ static void test_heights(void **state)
             for (int step = 0; step < 150; step++)
                 if (cipc_step(s.stepper, s.state, &report, &error)) fail_msg("%s: %s", error.place, error.what);
             double top = height(&s, SHEETS);
-            if (!(top > SHEETS * xi && top < SHEETS * (xi + dhat))) fail_msg("dhat %g, xi %g: the stack is %g m high", dhat, xi, top);
+            char title[96];
+            (void)snprintf(title, sizeof title, "ten sheets at rest, dhat = %g mm, xi = %g mm (E19)", 1e3 * dhat, 1e3 * xi);
+            validation_range(title, "height, m", SHEETS * xi, SHEETS * (xi + dhat), top);
             for (int sheet = SHEETS; sheet >= 2; sheet--) { /* the floor has other triangles than the sheets, so the lowest gap compares with none */
                 double gap = height(&s, sheet) - height(&s, sheet - 1) - xi;
+                char curve[64];
+                (void)snprintf(curve, sizeof curve, "dhat = %g mm, xi = %g mm", 1e3 * dhat, 1e3 * xi);
+                validation_point("stack", curve, sheet, gap / dhat);
                 if (!(gap > 0 && gap < above)) fail_msg("dhat %g, xi %g: below sheet %d the gap is %g, above it %g", dhat, xi, sheet, gap, above);
                 above = gap;
             }
