@@ -23,7 +23,7 @@
     X(MISSING_FILE, 2007, "check the path; it is taken relative to the scene file")                                   \
     X(BAD_MESH, 2008, "mend the mesh at the line named")                                                              \
     X(INITIAL_INTERSECTION, 2009, "move the bodies apart in the scene")                                               \
-    X(INITIAL_GAP, 2010, "move the bodies apart or lower their offset")                                               \
+    X(INITIAL_GAP, 2010, "move the bodies apart, lower their offset, or within one body make the elements longer than it") \
     X(INITIAL_STRAIN, 2011, "start from a less stretched shape or raise the limit")                                   \
     X(BAD_QUERY, 2013, "mend the query at the line named; docs/conformance.md has the format")                        \
     X(NOT_RESUMABLE, 2012, "start afresh in another output folder")                                                   \
