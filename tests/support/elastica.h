@@ -1,0 +1,8 @@
+/* The heavy elastica (SPEC E9), the reference for cantilevers of any deflection. */
+#ifndef SUPPORT_ELASTICA_H
+#define SUPPORT_ELASTICA_H
+
+/* Deflection of the tip, over the length, of an inextensible beam clamped level, of weight w a length and rigidity EI; gamma = w L^3/EI. To 1e-12 or so. */
+double elastica_tip(double gamma);
+
+#endif
