@@ -110,9 +110,8 @@ static void test_resting_gap(void **state)
 }
 
 /* With weights a node's contact is as stiff as its area is large, compared with the mean. */
-static void test_weighted_resting_gap(void **state)
+static void rest_weighted(double xi)
 {
-    (void)state;
     sheet_scene scene;
     sheet_scene_init(&scene);
     scene.options.time_step = 0.04;
@@ -120,13 +119,23 @@ static void test_weighted_resting_gap(void **state)
     scene.options.barrier_stiffness = 25;
     scene.gravity[1] = -g;
     add_equilateral(&scene, "wall", -2, 0)->fixed = true;
-    cipc_body_description *plate = add_equilateral(&scene, "plate", 0.1, 5e-4);
+    cipc_body_description *plate = add_equilateral(&scene, "plate", 0.1, xi + 5e-4);
+    for (int b = 0; b < 2; b++) scene.bodies[b].offset = xi;
     plate->material.density = 3e-5 / (0.75 * sqrt(3) * 0.1 * 0.1 * plate->material.thickness);
     sheet_scene_build(&scene);
     sheet_steps(&scene, SETTLING_STEPS);
     double weight = scene.model->node_area[3] / ((scene.model->node_area[0] + scene.model->node_area[3]) / 2);
-    assert_true(fabs(scene.report.min_gap - resting_gap(25 * weight, 0, 1e-3, 1e-5 * g * 0.04 * 0.04)) <= gap_tolerance);
+    assert_true(fabs(scene.report.min_gap - resting_gap(25 * weight, xi, 1e-3, 1e-5 * g * 0.04 * 0.04)) <= gap_tolerance);
+    assert_int_equal(scene.report.contacts, 3);
     sheet_scene_free(&scene);
+}
+
+static void test_weighted_resting_gap(void **state)
+{
+    (void)state;
+    rest_weighted(0);
+    rest_weighted(1e-4);
+    rest_weighted(1e-3);
 }
 
 /* Nested triangles on one another: interface j carries what is above it, a third of it at each node; each gap is in closed form, and they

@@ -123,8 +123,8 @@ static void test_ring(void **state)
     validation_row("rod bent to a ring (E12)", "order of convergence", 2, log2(error[0] / error[1]), 0.02);
 }
 
-/* Half the span over a: sinh(u)/u = L/D by bisection. */
-static double catenary_sag(double length, double span)
+/* a of the catenary y = a cosh(x/a): half the span over it is u with sinh(u)/u = L/D, by bisection. */
+static double catenary_parameter(double length, double span)
 {
     double low = 1e-9, high = 20;
     for (int k = 0; k < 100; k++) {
@@ -132,12 +132,17 @@ static double catenary_sag(double length, double span)
         if (sinh(u) / u < length / span) low = u;
         else high = u;
     }
-    double a = span / (2 * low);
-    return a * (cosh(low) - 1);
+    return span / (2 * low);
 }
 
+typedef struct chain {
+    double sag;                      /* m, of the middle node */
+    double horizontal, end;          /* N: horizontal part of the tension of the first segment, and that tension, at its middle */
+    double weight;                   /* N/m */
+} chain;
+
 /* A chain of n segments, length 1, between points 0.8 apart; it starts as two straight halves. */
-static double chain_sag(int n, double span)
+static chain hang_chain(int n, double span)
 {
     sheet_scene scene;
     double depth = sqrt(0.25 - 0.25 * span * span), *x = calloc(3 * (size_t)(n + 1), sizeof *x);
@@ -154,17 +159,25 @@ static double chain_sag(int n, double span)
     sheet_hold(&scene, held, 2, NULL, INFINITY);
     sheet_scene_stepper(&scene);
     sheet_step(&scene);
-    double sag = -scene.state->position[3 * (n / 2) + 1];
+    const double *y = scene.state->position, along = y[3] - y[0], length = hypot(along, y[4] - y[1]);
+    double tension = young * section() * (length * n - 1);
+    chain c = {-y[3 * (n / 2) + 1], tension * along / length, tension, 1000 * section() * 9.81};
     sheet_scene_free(&scene);
     free(x);
-    return sag;
+    return c;
 }
 
-/* The chain is as good as inextensible: it stretches by some rho g L/E = 1e-3. */
+/* The chain is as good as inextensible: it stretches by some rho g L/E = 1e-3. The tension at the middle of the first segment is less than that of the end by w times half its drop. */
 static void test_catenary(void **state)
 {
     (void)state;
-    validation_row("hanging chain (E8)", "sag / length", catenary_sag(1, 0.8), chain_sag(64, 0.8), 2e-3);
+    enum { SEGMENTS = 64 };
+    double a = catenary_parameter(1, 0.8), sag = a * (cosh(0.8 / (2 * a)) - 1);
+    chain c = hang_chain(SEGMENTS, 0.8);
+    double half_drop = 0.5 / SEGMENTS * sqrt(1 - c.horizontal * c.horizontal / (c.end * c.end));
+    validation_row("hanging chain (E8)", "sag / length", sag, c.sag, 2e-3);
+    validation_row("hanging chain (E8)", "horizontal tension / w a", 1, c.horizontal / (c.weight * a), 4e-3);
+    validation_row("hanging chain (E8)", "tension at the end / w (a + sag)", 1, (c.end / c.weight + half_drop) / (a + sag), 4e-3);
 }
 
 int main(void)

@@ -33,7 +33,7 @@ void validation_row(const char *scene, const char *quantity, double expected, do
 void validation_range(const char *scene, const char *quantity, double low, double high, double measured)
 {
     append("row\t%s\t%s\t%.6g to %.6g\t%.6g\t\t\n", scene, quantity, low, high, measured);
-    if (!(measured >= low && measured <= high)) fail_msg("%s: %s is %.9g, not from %.9g to %.9g", scene, quantity, measured, low, high);
+    if (!(measured > low && measured < high)) fail_msg("%s: %s is %.9g, not between %.9g and %.9g", scene, quantity, measured, low, high);
 }
 
 void validation_point(const char *plot, const char *curve, double x, double y) { append("point\t%s\t%s\t%.9g\t%.9g\n", plot, curve, x, y); }

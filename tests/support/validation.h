@@ -6,7 +6,7 @@
  * measured, relative error, tolerance, tab-separated. */
 void validation_row(const char *scene, const char *quantity, double expected, double measured, double tolerance);
 
-/* Fails the test unless low <= measured <= high. The row has "low to high" for the expected value and no error. */
+/* Fails the test unless low < measured < high. The row has "low to high" for the expected value and no error. */
 void validation_range(const char *scene, const char *quantity, double low, double high, double measured);
 
 /* A point of a curve of a plot, for those who would rather look: appended to the same file, as plot, curve, x, y after the word "point". Asserts nothing. */
