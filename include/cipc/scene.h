@@ -45,6 +45,8 @@ cipc_status cipc_mesh_arc(cipc_mesh *mesh, double radius, double angle, int segm
 /* count[0] x count[1] x count[2] straight vertical (y) rods of a length, centred, `spacing` from axis to axis in x and z and from middle to middle in y; `round`: of each layer only
  * those within the inscribed ellipse. Nodes rod by rod from below, x fastest, then z, then y. */
 cipc_status cipc_mesh_rods(cipc_mesh *mesh, const int count[3], const double spacing[3], double length, int segments, bool round, cipc_error *error);
+/* Hair: every rod of such a mesh (rods of `segments`, `length` long) loses up to `shorten` < length at its lower end, at random (seeded). */
+cipc_status cipc_mesh_shorten_rods(cipc_mesh *mesh, double length, int segments, double shorten, unsigned long seed, cipc_error *error);
 /* Interwoven net of n + n rods along x and z, extent `size`, `segments` each; where two cross one is `lift` above and the other below, alternately. segments >= 2 n. */
 cipc_status cipc_mesh_net(cipc_mesh *mesh, double size, int n, int segments, double lift, cipc_error *error);
 
@@ -55,6 +57,9 @@ cipc_status cipc_mesh_lattice(cipc_mesh *mesh, const int count[3], const double 
 cipc_status cipc_mesh_box(cipc_mesh *mesh, const double size[3], const int cells[3], cipc_error *error);
 cipc_status cipc_mesh_ball(cipc_mesh *mesh, double radius, int cells, cipc_error *error);
 cipc_status cipc_mesh_solid_cylinder(cipc_mesh *mesh, double radius, double length, int cells_across, int cells_along, cipc_error *error);
+/* Solid of revolution about +y: the section is a lattice of `rows` x `columns` points (radius >= 0, height), row by row, its cells convex and all turned the same way; `sectors` >= 3 around.
+ * Points on the axis are single nodes. Nodes: point by point, each around from +x towards -z. */
+cipc_status cipc_mesh_solid_revolution(cipc_mesh *mesh, int rows, int columns, const double (*points)[2], int sectors, cipc_error *error);
 
 /* By the file's ending: .obj (surface; with l lines only: segments; with v lines only: particles), .seg (segments, as OBJ lines), .msh (Gmsh ASCII 2.2 and 4.1), .vtk (legacy ASCII unstructured grid or
  * polydata). Elements of the wanted kind must be there; the nodes that they do not use are left out (particles: all nodes). */

@@ -1,10 +1,11 @@
-/* Box, ball, solid cylinder or file. */
+/* Box, ball, solid cylinder, solid of revolution or file. */
 #include "scene/volume.h"
 
 #include "scene/alternatives.h"
 #include "scene/lists.h"
 #include "scene/mesh.h"
 #include "scene/mesh_file.h"
+#include "scene/solid_revolution.h"
 
 static void read_box(scene_reader *r, const scene_cursor *box, cipc_mesh *mesh)
 {
@@ -42,8 +43,8 @@ static void read_cylinder(scene_reader *r, const scene_cursor *cylinder, cipc_me
 
 void scene_read_volume(scene_reader *r, const scene_cursor *volume, cipc_mesh *mesh)
 {
-    enum { BOX, BALL, CYLINDER, MESH };
-    static const char *const keys[] = {"box", "ball", "cylinder", "mesh", NULL};
+    enum { BOX, BALL, CYLINDER, REVOLUTION, MESH };
+    static const char *const keys[] = {"box", "ball", "cylinder", "revolution", "mesh", NULL};
     *mesh = (cipc_mesh){0};
     if (!scene_is_object(r, volume, keys)) return;
     int way = scene_one_of(r, volume, keys);
@@ -55,6 +56,8 @@ void scene_read_volume(scene_reader *r, const scene_cursor *volume, cipc_mesh *m
         read_ball(r, &member, mesh);
     else if (way == CYLINDER)
         read_cylinder(r, &member, mesh);
+    else if (way == REVOLUTION)
+        scene_read_solid_revolution(r, &member, mesh);
     else
         scene_read_mesh_file(r, volume, CIPC_MESH_TETRAHEDRA, mesh);
 }
