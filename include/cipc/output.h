@@ -142,6 +142,7 @@ void cipc_progress_clear(FILE *terminal);
 typedef struct cipc_picture_options {
     int columns, rows, tile_width, tile_height; /* tiles; pixels */
     double azimuth, elevation, zoom;
+    const bool *subject;                        /* of each body: is the picture about it? NULL: about those that move */
 } cipc_picture_options;
 cipc_picture_options cipc_picture_options_default(void);
 cipc_status cipc_frames_png(const char *path, const char *trajectory_path, const cipc_model *model, const cipc_picture_options *options,

@@ -78,6 +78,7 @@ typedef struct cipc_scene {
     double monitor_reach;                /* m */
     bool write_obj;
     double camera_azimuth, camera_elevation, camera_zoom;   /* of frames.png; degrees are never implied: radians */
+    bool *camera_subject;                /* of each body, or NULL: does the camera look at it? */
     char *resolved;                      /* the scene as resolved (overrides applied, defaults filled in), JSON text */
     cipc_model *model;
     cipc_state *state;

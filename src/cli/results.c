@@ -89,6 +89,7 @@ static cipc_status write_pictures(cipc_simulation *s, const paths *p, cipc_error
     options.azimuth = scene->camera_azimuth;
     options.elevation = scene->camera_elevation;
     options.zoom = scene->camera_zoom;
+    options.subject = scene->camera_subject;
     cipc_error found;
     cipc_status status = CIPC_OK;
     note(cipc_frames_png(p->frames, p->trajectory, scene->model, &options, &found), &found, &status, error);

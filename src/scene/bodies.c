@@ -276,6 +276,13 @@ void scene_read_bodies(scene_reader *r, const scene_cursor *root, unsigned long 
     check_total(r, &list, bodies);
 }
 
+int scene_entry_of(const scene_bodies *bodies, int body)
+{
+    int e = 0;
+    while (e + 1 < bodies->entry_count && bodies->entries[e + 1].first <= body) e++;
+    return e;
+}
+
 int scene_find_bodies(scene_reader *r, const scene_cursor *cursor, const scene_bodies *bodies, int *count)
 {
     const char *name = scene_string_at(r, cursor), *nearest = NULL;

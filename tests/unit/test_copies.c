@@ -68,6 +68,27 @@ static void test_dirichlet_sets_of_copies(void **state)
                  "'a' is the name of 3 copies; name one of them, 'a-1' for the first");
 }
 
+static void test_subject_of_the_pictures(void **state)
+{
+    (void)state;
+    cipc_scene *s = accept_scene(SCENE(BODY("b", "") "," BODY("a", STACK) "," BODY("c", ""), ", \"output\": {\"camera\": {\"subject\": [\"a\", \"c\"]}}"), NULL);
+    for (int b = 0; b < 5; b++) assert_int_equal(s->camera_subject[b], b > 0);
+    cipc_scene_destroy(s);
+    s = accept_scene(SCENE(BODY("b", ""), ""), NULL);
+    assert_null(s->camera_subject);
+    cipc_scene_destroy(s);
+    reject_around("\"output\": {\"camera\": {\"subject\": [@\"cloht\"]}},", "", CIPC_E_OUT_OF_RANGE, "output.camera.subject.0", "nearest is 'cloth'");
+    reject_around("\"output\": {\"camera\": {@\"subject\": []}},", "", CIPC_E_OUT_OF_RANGE, "output.camera.subject", "has 0 elements");
+}
+
+/* What the model finds wrong with a body behind copies is said at that body. */
+static void test_place_of_what_the_model_rejects(void **state)
+{
+    (void)state;
+    reject_scene(SCENE(BODY("a", STACK) ", {\"name\": \"flat\", @\"rods\": {\"polyline\": {\"points\": [[0, 0, 0], [1, 0, 0], [0, 0, 0]], \"segments\": 1}}, \"density\": 1, "
+                       "\"diameter\": 1, \"young\": 1, \"rest\": {\"scale\": 1e-320}}", ""), NULL, CIPC_E_BAD_MESH, "bodies.flat.rods", "");
+}
+
 static void test_rejections(void **state)
 {
     (void)state;
@@ -89,6 +110,8 @@ int main(void)
         cmocka_unit_test(test_places_and_names),
         cmocka_unit_test(test_friction_among_copies),
         cmocka_unit_test(test_dirichlet_sets_of_copies),
+        cmocka_unit_test(test_subject_of_the_pictures),
+        cmocka_unit_test(test_place_of_what_the_model_rejects),
         cmocka_unit_test(test_rejections),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
