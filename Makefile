@@ -186,7 +186,7 @@ tests: $(TESTS)
 CHECKS := 'ci/check-layers' 'ci/check-layers --self-test' 'ci/check-symbols $(BUILD)' 'ci/check-symbols --self-test' \
     $(if $(PROGRAM),'ci/check-docs $(BUILD)') 'ci/check-docs --self-test' 'ci/check-install $(BUILD)' 'ci/run-tests --self-test' \
     'tests/conformance/check $(BUILD)' 'tests/conformance/check-verify $(BUILD)' 'ci/mutants --self-test' 'ci/mutants --fast --build $(BUILD)' \
-    'ci/check-gappa' 'ci/check-gappa --self-test' 'ci/validation --self-test'
+    'ci/check-gappa' 'ci/check-gappa --self-test' 'ci/validation --self-test' 'ci/scene-costs --self-test'
 
 verdict: all tests
 	@CIPC=$(BUILD)/cipc ci/run-tests $(BUILD)/tests $(CHECKS) $(TESTS)

@@ -93,4 +93,15 @@ void cipc_scene_destroy(cipc_scene *scene);
 typedef struct cipc_scene_entry { const char *name, *title, *source, *file; } cipc_scene_entry;
 const cipc_scene_entry *cipc_scene_catalogue(int *count);
 
+/* What a scene costs at a size, as measured once (docs/scenes.md says where): nodes, steps, seconds on one thread with all monitors, peak memory. */
+typedef struct cipc_scene_cost {
+    const char *scene, *size;
+    int nodes, steps;
+    double seconds;            /* 0: not measured */
+    int megabytes;
+    bool extrapolated;         /* from the first steps, which are the cheap ones: at least so long */
+} cipc_scene_cost;
+/* NULL: no such scene or size. */
+const cipc_scene_cost *cipc_scene_cost_of(const char *scene, const char *size);
+
 #endif
