@@ -19,6 +19,8 @@ typedef struct cipc_mesh {
     int (*segments)[2];
     int tetrahedron_count;
     int (*tetrahedra)[4];      /* positive volume */
+    double *pattern;           /* of garments: the same nodes cut flat in the x-z plane, 3 * node_count, m; NULL: there is none */
+    int panel_count, panel_columns, panel_rows; /* of garments: panels of columns * rows nodes each, row by row from the top, left to right; 0: none */
 } cipc_mesh;
 void cipc_mesh_free(cipc_mesh *mesh);
 
@@ -37,6 +39,27 @@ cipc_status cipc_mesh_read_obj(cipc_mesh *mesh, const char *path, cipc_error *er
 cipc_status cipc_mesh_revolution(cipc_mesh *mesh, int count, const double (*profile)[2], int sectors, cipc_error *error);
 /* Open cylinder about x, from -length/2 to length/2, of near-equilateral triangles: `around` nodes a ring, rings staggered, `along` + 1 rings. */
 cipc_status cipc_mesh_cylinder(cipc_mesh *mesh, double radius, double length, int around, int along, cipc_error *error);
+
+/* Capsule about y: balls of radii[0] and radii[1] around (0, -length/2, 0) and (0, length/2, 0) and the cone that touches both; `along` equal steps
+ * from pole to pole, `around` nodes a ring. */
+cipc_status cipc_mesh_capsule(cipc_mesh *mesh, const double radii[2], double length, int around, int along, cipc_error *error);
+
+/* A ring of panels around y, of a skirt or a bodice: radius `top` at y = 0, `bottom` at y = -height, m; `down` rows of cells. The panels have nodes
+ * of their own along the seams. */
+typedef struct cipc_panel_ring {
+    int panels, down;
+    double top, bottom, height;
+} cipc_panel_ring;
+/* Gores: pieces of a cone, `across` cells each. The first begins at +x; then towards -z. Has a pattern. */
+cipc_status cipc_mesh_gores(cipc_mesh *mesh, const cipc_panel_ring *ring, int across, cipc_error *error);
+/* Knife pleats: `count` of them around, folded under by `depth`, layers a gap apart, both in m at the top, where `ring.top` is the mean radius; cells
+ * across the way forward and the way back, and one at each fold. Has a pattern. OUT_OF_RANGE too if there is no room for the pleats, or if the columns
+ * are so wide that layers come nearer than half the gap. */
+typedef struct cipc_pleating {
+    int count, forward, back;
+    double depth, gap;
+} cipc_pleating;
+cipc_status cipc_mesh_pleats(cipc_mesh *mesh, const cipc_panel_ring *ring, const cipc_pleating *pleats, cipc_error *error);
 
 /* Rods. A polyline through `count` points, each stretch divided into `segments` equal segments; closed joins the last to the first. */
 cipc_status cipc_mesh_polyline(cipc_mesh *mesh, int count, const double (*points)[3], int segments, bool closed, cipc_error *error);

@@ -20,6 +20,8 @@ static const cipc_scene_entry entries[] = {
     {"stack", "A ball falls on a stack of cloths", "C-IPC fig. 18; row 18", "tests/scenes/stack.json"},
     {"sprinkles", "Sprinkles fall into a bowl", "C-IPC fig. 21; row 21", "tests/scenes/sprinkles.json"},
     {"granules", "Granules fall on a cloth held by its corners", "C-IPC fig. 22; row 22", "tests/scenes/granules.json"},
+    {"skirt", "Skirt of three layers on a dancer", "C-IPC fig. 5; row 5", "tests/scenes/skirt.json"},
+    {"dress", "Knife-pleat dress on a dancer who kicks", "C-IPC fig. 5; row 5", "tests/scenes/dress.json"},
     {"free-fall", "Cloth in free fall", "known answer E1", "tests/scenes/free-fall.json"},
     {"incline", "Plate on a slope", "known answer E3", "tests/scenes/incline.json"},
     {"resting", "Plate at rest on a floor", "known answer E4", "tests/scenes/resting.json"},
