@@ -125,6 +125,10 @@ const char *cipc_run_summary_verdict(const cipc_run_summary *summary, int invari
 /* summary.json, written atomically. */
 cipc_status cipc_summary_write(const char *path, const cipc_run_summary *summary, cipc_error *error);
 
+/* The same verdicts as JUnit XML, written atomically: a case for the steps and one for each of M1..M8; failures with place and remedy, those not checked with the
+ * reason. */
+cipc_status cipc_summary_junit(const char *path, const cipc_run_summary *summary, cipc_error *error);
+
 /* Cut stats.jsonl after the line of `step` (atomically) and add what the lines kept say to *summary, so that the summary of a resumed run
  * is that of the whole run. CIPC_E_NOT_RESUMABLE if a line is missing; a broken last line is one beyond the cut. */
 cipc_status cipc_stats_resume(const char *path, int step, cipc_run_summary *summary, cipc_error *error);

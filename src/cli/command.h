@@ -33,6 +33,9 @@ cipc_status cipc_parse_arguments(const cipc_arguments *arguments, int argc, char
 /* An integer argument in [least, most]. */
 cipc_status cipc_parse_integer(const char *place, const char *text, long least, long most, long *value, cipc_error *error);
 
+/* JUnit XML with one case, the command itself, which ended with this error: no earlier file of verdicts may stay for this call's. path NULL: nothing. Returns exit_status. */
+int cipc_junit_refused(const char *path, const char *command, const cipc_error *error, int exit_status);
+
 /* Print "cipc 0.1.0" to stdout. */
 void cipc_print_version(void);
 

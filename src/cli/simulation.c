@@ -302,7 +302,26 @@ int cipc_simulate(cipc_scene *scene, const cipc_run_request *request)
     cipc_simulation s = {.request = request, .scene = scene, .begin = cipc_clock()};
     cipc_interrupt_hold();
     begin_summary(&s);
-    const int exit_status = prepare(&s) == CIPC_OK ? run_to_the_end(&s) : cipc_say(&s.error);
+    int exit_status = 0;
+    const cipc_status status = prepare(&s);
+    if (status == CIPC_OK) {
+        exit_status = run_to_the_end(&s);
+    } else {
+        exit_status = cipc_say(&s.error);
+        s.summary.status = status;
+        s.summary.error = &s.error;
+    }
+    exit_status = cipc_verdicts_junit(request->junit, &s.summary, exit_status);
     clear(&s);
     return exit_status;
+}
+
+int cipc_verdicts_junit(const char *path, const cipc_run_summary *summary, int exit_status)
+{
+    cipc_error error;
+    if (path == NULL || cipc_summary_junit(path, summary, &error) == CIPC_OK) {
+        return exit_status;
+    }
+    const int second = cipc_say(&error);
+    return exit_status != 0 ? exit_status : second;
 }

@@ -459,6 +459,64 @@ static void test_no_convergence(void **state)
     json_decref(summary);
 }
 
+static void assert_file_contains(const path *file, const char *part)
+{
+    size_t size = 0;
+    char *bytes = file_read(file, &size), *text = calloc(size + 1, 1);
+    assert_non_null(text);
+    memcpy(text, bytes, size);
+    free(bytes);
+    if (strstr(text, part) == NULL) {
+        fail_msg("%s: no '%s' in %s", file->text, part, text);
+    }
+    free(text);
+}
+
+/* Verdicts for continuous integration systems, however the run ends; an earlier file never stays for another run's. */
+static void test_junit(void **state)
+{
+    const fixture *f = *state;
+    const path file = path_in(&f->folder, "verdicts.xml");
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--junit", file.text, NULL).exit_status, 0);
+    assert_file_contains(&file, "<testsuite name=\"scene\" tests=\"9\" failures=\"0\" errors=\"0\" skipped=\"2\">");
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "newton.iterations=1", "--set", "newton.tolerance=1e-12", "--junit", file.text, NULL).exit_status, 1);
+    assert_file_contains(&file, "<error message=\"step 0: CIPC-1003");
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "bodies.cloth.densty=3", "--junit", file.text, NULL).exit_status, 2);
+    assert_file_contains(&file, "densty");
+    file_write(&f->scene, crossing, strlen(crossing));
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--junit", file.text, NULL).exit_status, 2);
+    assert_file_contains(&file, "CIPC-2009");
+    file_write(&f->scene, falling, strlen(falling));
+    const outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--junit", "/no/such/folder/v.xml", NULL);
+    assert_message(&o, 1, "CIPC-1002", "/no/such/folder/v.xml");
+    assert_int_equal(cipc(f, "verify", "distance", "--samples", "400", "--quiet", "--junit", file.text, NULL).exit_status, 3); /* too few to reach every branch */
+    assert_file_contains(&file, "<testsuite name=\"distance\"");
+    assert_file_contains(&file, "<failure message=");
+    assert_int_equal(cipc(f, "verify", "distanse", "--junit", file.text, NULL).exit_status, 2);
+    assert_file_contains(&file, "errors=\"1\"");
+}
+
+/* A port that answers one query right, one wrong, one not at all, and a question that nobody asked. */
+static void test_junit_of_judge(void **state)
+{
+    const fixture *f = *state;
+    const path file = path_in(&f->folder, "verdicts.xml"), vectors = path_in(&f->folder, "v.jsonl"), answers = path_in(&f->folder, "a.jsonl");
+    static const char asked[] = "{\"id\":1,\"fn\":\"intersect_edge_triangle\",\"x\":[0,0,-1,0,0,1,-1,-1,0,2,-1,0,-1,2,0],\"want\":{\"intersects\":true}}\n"
+                                "{\"id\":2,\"fn\":\"intersect_edge_triangle\",\"x\":[0,0,-1,0,0,1,-1,-1,0,2,-1,0,-1,2,0],\"want\":{\"intersects\":true}}\n"
+                                "{\"id\":3,\"fn\":\"intersect_edge_triangle\",\"x\":[0,0,-1,0,0,1,-1,-1,0,2,-1,0,-1,2,0],\"want\":{\"intersects\":true}}\n";
+    static const char answered[] = "{\"id\":1,\"fn\":\"intersect_edge_triangle\",\"got\":{\"intersects\":true}}\n"
+                                   "{\"id\":2,\"fn\":\"intersect_edge_triangle\",\"got\":{\"intersects\":false}}\n"
+                                   "{\"id\":9,\"fn\":\"intersect_edge_triangle\",\"got\":{\"intersects\":true}}\n";
+    file_write(&vectors, asked, strlen(asked));
+    file_write(&answers, answered, strlen(answered));
+    assert_int_equal(cipc(f, "judge", vectors.text, answers.text, "--junit", file.text, NULL).exit_status, 3);
+    assert_file_contains(&file, "<testsuite name=\"cipc judge\" tests=\"2\" failures=\"2\"");
+    assert_file_contains(&file, "2 answers are wrong or missing");
+    assert_file_contains(&file, "answer no question: 1");
+    assert_int_equal(cipc(f, "judge", "/no/such/vectors", "--junit", file.text, NULL).exit_status, 2);
+    assert_file_contains(&file, "errors=\"1\"");
+}
+
 static void test_unwritable_folder(void **state)
 {
     const fixture *f = *state;
@@ -674,6 +732,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_run_without_outer_forces, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_new_run_removes_stale_results, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_no_convergence, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_junit, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_junit_of_judge, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_unwritable_folder, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_no_space, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_full_standard_output, set_up, tear_down),
