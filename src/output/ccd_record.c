@@ -23,7 +23,8 @@ struct cipc_ccd_record {
     int halvings;      /* one in 2^halvings is kept */
 };
 
-/* Bits of a number mixed so that neighbours differ in every one (splitmix64): taking every n-th of a list instead would take the same places of a regular mesh again and again. */
+/* Bits of a number mixed so that neighbours differ in every one (splitmix64): every n-th of a list instead could be the same places of a regular mesh again
+ * and again. */
 static unsigned long mix(unsigned long h)
 {
     h += 0x9e3779b97f4a7c15UL;
@@ -139,7 +140,7 @@ static json_t *line_of(const cipc_ccd_record *r, const kept_query *q)
     cipc_json_put(line, "thickness", cipc_json_number(q->thickness), &good);
     cipc_json_put(line, "scale", cipc_json_number(q->scale), &good);
     cipc_json_put(line, "step", json_integer(q->step + 1), &good);
-    cipc_json_put(line, "one_in", json_integer(1L << r->halvings), &good);
+    cipc_json_put(line, "one_in", json_integer((json_int_t)1 << r->halvings), &good);
     if (!good) { json_decref(line); }
     return good ? line : NULL;
 }

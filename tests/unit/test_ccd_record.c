@@ -1,4 +1,5 @@
-/* The record of CCD queries: the very queries of a run, in order, a sample spread over the whole run whatever the number of threads; and a file that is whole or the old one. */
+/* The record of CCD queries: the very queries of a run, in order; a sample spread over the whole run, whatever the number of threads; a file that is whole or the
+ * old one. */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>

@@ -681,6 +681,33 @@ static void test_recorded_queries(void **state)
     free(bytes);
 }
 
+/* The comparison of a record; a file that is not one. */
+static void test_compared_queries(void **state)
+{
+    const fixture *f = *state;
+    const path record = path_in(&f->folder, "ccd.jsonl"), report = path_in(&f->folder, "ccd.json"), empty = path_in(&f->folder, "empty.jsonl");
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--record-ccd", record.text, NULL).exit_status, 0);
+    outcome o = cipc(f, "ccd", record.text, record.text, "--json", report.text, NULL);
+    assert_int_equal(o.exit_status, 0);
+    assert_true(o.err[0] == '\0' && strstr(o.out, "minimum-separation") != NULL && strstr(o.out, "\nccd ") != NULL);
+    json_t *json = json_load_file(report.text, 0, NULL);
+    assert_string_equal(text_of(json, "verdict"), "passed");
+    const json_t *file = json_array_get(json_object_get(json, "files"), 1), *certified = json_array_get(json_object_get(file, "methods"), 0);
+    assert_int_equal(json_integer_value(json_object_get(file, "queries")), count_lines(&record));
+    assert_string_equal(text_of(certified, "method"), "certified");
+    assert_int_equal(json_integer_value(json_object_get(certified, "usable")), json_integer_value(json_object_get(file, "judged")));
+    json_decref(json);
+    file_write(&empty, "", 0);
+    o = cipc(f, "ccd", empty.text, NULL);
+    assert_message(&o, 2, "CIPC-2013", "empty");
+    o = cipc(f, "ccd", "/no/such/file.jsonl", NULL);
+    assert_message(&o, 2, "CIPC-2007", "--record-ccd");
+    o = cipc(f, "ccd", f->scene.text, NULL);
+    assert_message(&o, 2, "CIPC-2013", "scene.json");
+    o = cipc(f, "ccd", NULL);
+    assert_message(&o, 2, "CIPC-2001", "no file");
+}
+
 static void test_resume_refusals(void **state)
 {
     const fixture *f = *state;
@@ -716,6 +743,7 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_interrupted_run, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_killed_run, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_recorded_queries, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_compared_queries, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_resume_refusals, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

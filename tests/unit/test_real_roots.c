@@ -80,6 +80,7 @@ static void test_repeated_roots(void **state)
 
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_known_roots), cmocka_unit_test(test_ends), cmocka_unit_test(test_none), cmocka_unit_test(test_repeated_roots)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_known_roots), cmocka_unit_test(test_ends), cmocka_unit_test(test_none),
+                                       cmocka_unit_test(test_repeated_roots)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
