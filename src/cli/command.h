@@ -13,6 +13,7 @@ int cipc_command_verify(int argc, char **argv); /* cli/verify.c */
 int cipc_command_vectors(int argc, char **argv); /* cli/vectors.c */
 int cipc_command_eval(int argc, char **argv);   /* cli/eval.c */
 int cipc_command_judge(int argc, char **argv);  /* cli/judge.c */
+int cipc_command_ccd(int argc, char **argv);    /* cli/ccd.c */
 
 /* One line on stderr, "cipc: where: CIPC-number: what: how to mend it"; returns the exit status that goes with the error. */
 int cipc_say(const cipc_error *error);

@@ -116,6 +116,8 @@ cipc_status cipc_simulation_results(cipc_simulation *s, cipc_error *error)
     cipc_status status = CIPC_OK;
     note(cipc_trajectory_close(s->trajectory, &found), &found, &status, error);
     s->trajectory = NULL;
+    note(cipc_ccd_record_close(s->ccd_record, &found), &found, &status, error);
+    s->ccd_record = NULL;
     paths p = paths_in(s->request->directory);
     if (!p.good) {
         paths_free(&p);

@@ -6,7 +6,8 @@
 #include <string.h>
 #include "cli/simulation.h"
 
-enum { KEY_STEPS = 0x2001, KEY_SET, KEY_THREADS, KEY_RESUME, KEY_NO_MONITOR, KEY_OBJ, KEY_JUNIT, MOST_THREADS = 1024 };
+enum { KEY_STEPS = 0x2001, KEY_SET, KEY_THREADS, KEY_RESUME, KEY_NO_MONITOR, KEY_OBJ, KEY_JUNIT, KEY_RECORD_CCD, KEY_RECORD_CCD_LIMIT, MOST_THREADS = 1024 };
+enum { RECORDED_QUERIES = 20000, MOST_RECORDED_QUERIES = 10000000 };
 
 typedef struct request {
     const char *scene_path, *directory, *junit;
@@ -14,6 +15,8 @@ typedef struct request {
     int override_count;
     char steps[32];
     long threads;           /* 0: as the scene says */
+    const char *record_ccd; /* NULL: no record */
+    long record_ccd_limit;  /* 0: not given */
     bool resume, no_monitor, quiet, obj;
 } request;
 
@@ -47,6 +50,8 @@ static cipc_status take(void *input, int key, char *value, cipc_error *error)
     case KEY_NO_MONITOR: r->no_monitor = true; return CIPC_OK;
     case KEY_OBJ: r->obj = true; return CIPC_OK;
     case KEY_JUNIT: r->junit = value; return CIPC_OK;
+    case KEY_RECORD_CCD: r->record_ccd = value; return CIPC_OK;
+    case KEY_RECORD_CCD_LIMIT: return cipc_parse_integer("--record-ccd-limit", value, 1, MOST_RECORDED_QUERIES, &r->record_ccd_limit, error);
     default: r->quiet = true; return CIPC_OK; /* 'q', the only one left */
     }
 }
@@ -61,6 +66,9 @@ static const struct argp_option options[] = {
     {"no-monitor", KEY_NO_MONITOR, NULL, 0, "Do not check the invariants: the run then proves nothing", 0},
     {"obj", KEY_OBJ, NULL, 0, "Write a Wavefront OBJ file per frame as well", 0},
     {"junit", KEY_JUNIT, "FILE", 0, "Write the verdicts as JUnit XML too, for continuous integration systems", 0},
+    {"record-ccd", KEY_RECORD_CCD, "FILE", 0,
+     "Write the queries that the run puts to continuous collision detection to FILE, for cipc ccd, cipc eval and other codebases", 0},
+    {"record-ccd-limit", KEY_RECORD_CCD_LIMIT, "N", 0, "Record at most N of them, spread over the whole run (default 20000)", 0},
     {"quiet", 'q', NULL, 0, "No progress line", 0},
     {0},
 };
@@ -120,6 +128,7 @@ static int run(const request *r, const char *command)
     const cipc_run_request asked = {
         .scene_name = name, .directory = r->directory != NULL ? r->directory : directory, .command = command, .junit = r->junit, .resume = r->resume,
         .monitor = scene->monitor && !r->no_monitor, .quiet = r->quiet, .write_obj = r->obj || scene->write_obj,
+        .record_ccd = r->record_ccd, .record_ccd_limit = r->record_ccd_limit > 0 ? r->record_ccd_limit : RECORDED_QUERIES,
     };
     const int exit_status = cipc_simulate(scene, &asked);
     cipc_scene_destroy(scene);
@@ -138,6 +147,13 @@ static cipc_status parse(request *r, int argc, char **argv, bool *answered, cipc
     }
     if (r->directory != NULL && r->directory[0] == '\0') {
         return cipc_fail(error, CIPC_E_USAGE, "--output", "the folder's name is empty");
+    }
+    if (r->record_ccd != NULL && r->record_ccd[0] == '\0') {
+        return cipc_fail(error, CIPC_E_USAGE, "--record-ccd", "the file's name is empty");
+    }
+    if (r->record_ccd == NULL && r->record_ccd_limit > 0) {
+        cipc_fail(error, CIPC_E_USAGE, "--record-ccd-limit", "nothing is recorded");
+        return cipc_fail_remedy(error, "name the file with --record-ccd FILE");
     }
     if (r->steps[0] != '\0') {
         r->overrides[r->override_count++] = r->steps;

@@ -146,6 +146,9 @@ static cipc_status open_files(cipc_simulation *s, const char *trajectory, const 
                               cipc_error *error)
 {
     cipc_status status = s->request->resume ? CIPC_OK : make_directory(s->request->directory, error);
+    if (status == CIPC_OK && s->request->record_ccd != NULL) { /* the folder may be the place for it */
+        status = cipc_ccd_record_open(&s->ccd_record, s->request->record_ccd, s->scene->model, s->request->record_ccd_limit, error);
+    }
     if (status == CIPC_OK) {
         status = open_trajectory(s, trajectory, error);
     }
@@ -288,6 +291,7 @@ static void clear(cipc_simulation *s)
 {
     cipc_error ignored;
     cipc_trajectory_close(s->trajectory, &ignored); /* still open only if something else has failed and been said */
+    cipc_ccd_record_discard(s->ccd_record); /* likewise */
     cipc_stepper_destroy(s->stepper);
     cipc_monitor_destroy(s->monitor);
     cipc_free(s->previous);

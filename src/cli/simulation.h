@@ -13,6 +13,8 @@ typedef struct cipc_run_request {
     const char *directory;   /* to write to */
     const char *command;     /* the words of the command line */
     const char *junit;       /* file for the verdicts as JUnit XML, or NULL */
+    const char *record_ccd;  /* file for the queries put to CCD, or NULL */
+    long record_ccd_limit;
     bool resume, monitor, quiet, write_obj;
 } cipc_run_request;
 
@@ -23,6 +25,7 @@ typedef struct cipc_simulation {
     cipc_stepper *stepper;
     cipc_trajectory *trajectory;
     FILE *stats;
+    cipc_ccd_record *ccd_record;     /* NULL: none is asked for */
     cipc_run_summary summary;
     cipc_step_invariants seen;       /* of the step under way */
     double *previous;                /* 3 * node_count: the point accepted before, where the next path begins; NULL: paths are not checked */

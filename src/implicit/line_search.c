@@ -31,12 +31,7 @@ static cipc_status feasible_step(cipc_stepper *s, double *alpha, cipc_error *err
     *alpha = cipc_strain_step(s, s->x, s->direction);
     cipc_status status = cipc_cache_cover(s, s->x, s->direction, error);
     if (status) return status;
-    double begin = cipc_seconds();
-    int nodes[4];
-    double t = cipc_candidates_ccd(s->model, &s->cache.candidates, s->x, s->direction, *alpha, &s->options.ccd, s->options.threads, nodes, NULL);
-    if (t < *alpha) set_limit(s, "contact", nodes);
-    *alpha = t;
-    s->report->seconds[CIPC_PHASE_CCD] += cipc_seconds() - begin;
+    *alpha = cipc_contact_step(s, *alpha);
     return CIPC_OK;
 }
 

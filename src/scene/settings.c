@@ -70,7 +70,7 @@ static void read_contact(scene_reader *r, const scene_cursor *root, cipc_implici
                                        "slackness",
                                        "ccd_iterations",
                                        NULL};
-    static const char *const ccds[] = {"certified", "additive", "cubic", NULL}; /* in the order of cipc_ccd_method */
+    static const char *const ccds[] = {"certified", "additive", "cubic", "minimum-separation", NULL}; /* in the order of cipc_ccd_method */
     options->ccd.method = options->released ? CIPC_CCD_ADDITIVE : CIPC_CCD_CERTIFIED;
     scene_cursor contact = scene_object_member(r, root, "contact");
     if (!scene_is_object(r, &contact, keys)) return;

@@ -216,6 +216,9 @@ static void test_bad_usage(void **state)
         {{"run", "a.json", "--steps=-1"}, "out of range"},
         {{"run", "a.json", "--steps=99999999999999999999"}, "out of range"},
         {{"run", "a.json", "--threads=0"}, "whole number from 1"},
+        {{"run", "a.json", "--record-ccd="}, "empty"},
+        {{"run", "a.json", "--record-ccd-limit=5"}, "--record-ccd FILE"},
+        {{"run", "a.json", "--record-ccd=a", "--record-ccd-limit=0"}, "whole number from 1"},
         {{"scenes", "drape"}, "'drape'"},
         {{"scenes", "--jsom"}, "the nearest option is --json"},
     };
@@ -704,6 +707,65 @@ static void test_killed_run(void **state)
     }
 }
 
+/* A record in the output folder, which the run makes; what cipc eval takes. A place that cannot be written to is refused before anything else is touched; a resumed run
+ * records its own steps. */
+static void test_recorded_queries(void **state)
+{
+    const fixture *f = *state;
+    const path record = path_in(&f->out, "ccd.jsonl"), absent = path_in(&f->out, "absent/ccd.jsonl"), stats = path_in(&f->out, "stats.jsonl");
+    outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--record-ccd", record.text, "--record-ccd-limit", "50", NULL);
+    assert_int_equal(o.exit_status, 0);
+    char *bytes = file_read(&record, NULL), *line = strtok(bytes, "\n");
+    int count = 0;
+    for (; line != NULL; line = strtok(NULL, "\n"), count++) assert_non_null(strstr(line, "\"fn\":\"toi_"));
+    free(bytes);
+    assert_true(count > 10 && count <= 50);
+    size_t before, after;
+    free(file_read(&stats, &before));
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--record-ccd", absent.text, NULL);
+    assert_message(&o, 1, "CIPC-1002", "absent");
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--record-ccd", f->folder.text, NULL);
+    assert_message(&o, 1, "CIPC-1002", "it is a folder");
+    free(file_read(&stats, &after));
+    assert_int_equal(before, after);
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--resume", "--record-ccd", record.text, NULL); /* nothing left to do, nothing asked */
+    assert_int_equal(o.exit_status, 0);
+    assert_int_equal(count_lines(&record), 0);
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--resume", "--steps=7", "--record-ccd", record.text, NULL);
+    assert_int_equal(o.exit_status, 0);
+    bytes = file_read(&record, NULL);
+    assert_non_null(strstr(bytes, "\"step\":7"));
+    assert_null(strstr(bytes, "\"step\":5"));
+    free(bytes);
+}
+
+/* The comparison of a record; a file that is not one. */
+static void test_compared_queries(void **state)
+{
+    const fixture *f = *state;
+    const path record = path_in(&f->folder, "ccd.jsonl"), report = path_in(&f->folder, "ccd.json"), empty = path_in(&f->folder, "empty.jsonl");
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--record-ccd", record.text, NULL).exit_status, 0);
+    outcome o = cipc(f, "ccd", record.text, record.text, "--json", report.text, NULL);
+    assert_int_equal(o.exit_status, 0);
+    assert_true(o.err[0] == '\0' && strstr(o.out, "minimum-separation") != NULL && strstr(o.out, "\nccd ") != NULL);
+    json_t *json = json_load_file(report.text, 0, NULL);
+    assert_string_equal(text_of(json, "verdict"), "passed");
+    const json_t *file = json_array_get(json_object_get(json, "files"), 1), *certified = json_array_get(json_object_get(file, "methods"), 0);
+    assert_int_equal(json_integer_value(json_object_get(file, "queries")), count_lines(&record));
+    assert_string_equal(text_of(certified, "method"), "certified");
+    assert_int_equal(json_integer_value(json_object_get(certified, "usable")), json_integer_value(json_object_get(file, "judged")));
+    json_decref(json);
+    file_write(&empty, "", 0);
+    o = cipc(f, "ccd", empty.text, NULL);
+    assert_message(&o, 2, "CIPC-2013", "empty");
+    o = cipc(f, "ccd", "/no/such/file.jsonl", NULL);
+    assert_message(&o, 2, "CIPC-2007", "--record-ccd");
+    o = cipc(f, "ccd", f->scene.text, NULL);
+    assert_message(&o, 2, "CIPC-2013", "scene.json");
+    o = cipc(f, "ccd", NULL);
+    assert_message(&o, 2, "CIPC-2001", "no file");
+}
+
 static void test_resume_refusals(void **state)
 {
     const fixture *f = *state;
@@ -740,6 +802,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_progress_on_a_terminal, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_interrupted_run, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_killed_run, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_recorded_queries, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_compared_queries, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_resume_refusals, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
