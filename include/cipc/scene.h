@@ -38,6 +38,19 @@ cipc_status cipc_mesh_revolution(cipc_mesh *mesh, int count, const double (*prof
 /* Open cylinder about x, from -length/2 to length/2, of near-equilateral triangles: `around` nodes a ring, rings staggered, `along` + 1 rings. */
 cipc_status cipc_mesh_cylinder(cipc_mesh *mesh, double radius, double length, int around, int along, cipc_error *error);
 
+/* Ribbon of a width along a smooth curve through `count` >= 2 points (natural cubic splines over the lengths of the chords), `along` x `across` cells cut along alternating
+ * diagonals. Cross-sections lie at equal lengths of the curve; node i (across + 1) + j is j-th of section i, from -width/2 to width/2 along tangent x normal; triangles are turned
+ * towards the normal. OUT_OF_RANGE if the curve runs along its normal or bends so sharply that an element has no size or is turned over. */
+typedef struct cipc_ribbon {
+    int count;
+    const double (*points)[3];  /* m */
+    const double (*normals)[3]; /* one for each point, of any length, interpolated as the points are; NULL: the first section's normal is carried along with the least rotation */
+    double normal[3];           /* of the first section; not read if `normals` are given */
+    double width;               /* m */
+    int along, across;
+} cipc_ribbon;
+cipc_status cipc_mesh_ribbon(cipc_mesh *mesh, const cipc_ribbon *ribbon, cipc_error *error);
+
 /* Rods. A polyline through `count` points, each stretch divided into `segments` equal segments; closed joins the last to the first. */
 cipc_status cipc_mesh_polyline(cipc_mesh *mesh, int count, const double (*points)[3], int segments, bool closed, cipc_error *error);
 /* Arc in the x-y plane about the origin from angle 0 at (radius, 0, 0), anticlockwise; angle 2 pi: a closed ring. */
