@@ -69,6 +69,15 @@ cipc_status cipc_mesh_box(cipc_mesh *mesh, const double size[3], const int cells
 cipc_status cipc_mesh_ball(cipc_mesh *mesh, double radius, int cells, cipc_error *error);
 cipc_status cipc_mesh_solid_cylinder(cipc_mesh *mesh, double radius, double length, int cells_across, int cells_along, cipc_error *error);
 
+/* A ball swept along a segment, its radius growing or shrinking evenly on the way; begin = end: a ball. */
+typedef struct cipc_capsule {
+    double begin[3], end[3]; /* m */
+    double radius[2];        /* m, > 0, at begin and end */
+} cipc_capsule;
+/* The union of capsules, figures for instance, filled with tetrahedra of a body-centred lattice of `cell` m; the surface's nodes lie on the capsules. `blend` (m, >= 0) rounds off the
+ * corners where parts meet. In one piece: OUT_OF_RANGE if parts do not meet or are thinner than the cells resolve. */
+cipc_status cipc_mesh_capsules(cipc_mesh *mesh, int count, const cipc_capsule *parts, double blend, double cell, cipc_error *error);
+
 /* By the file's ending: .obj (surface; with l lines only: segments; with v lines only: particles), .seg (segments, as OBJ lines), .msh (Gmsh ASCII 2.2 and 4.1), .vtk (legacy ASCII unstructured grid or
  * polydata). Elements of the wanted kind must be there; the nodes that they do not use are left out (particles: all nodes). */
 typedef enum cipc_mesh_kind { CIPC_MESH_TRIANGLES = 0, CIPC_MESH_SEGMENTS, CIPC_MESH_NODES, CIPC_MESH_TETRAHEDRA } cipc_mesh_kind;
