@@ -19,6 +19,7 @@ typedef struct cipc_mesh {
     int (*segments)[2];
     int tetrahedron_count;
     int (*tetrahedra)[4];      /* positive volume */
+    double *pattern;           /* of ribbons: the same nodes laid out flat in the x-z plane, 3 * node_count, m; NULL: there is none */
 } cipc_mesh;
 void cipc_mesh_free(cipc_mesh *mesh);
 
@@ -40,7 +41,7 @@ cipc_status cipc_mesh_cylinder(cipc_mesh *mesh, double radius, double length, in
 
 /* Ribbon of a width along a smooth curve through `count` >= 2 points (natural cubic splines over the lengths of the chords), `along` x `across` cells cut along alternating
  * diagonals. Cross-sections lie at equal lengths of the curve; node i (across + 1) + j is j-th of section i, from -width/2 to width/2 along tangent x normal; triangles are turned
- * towards the normal. OUT_OF_RANGE if the curve runs along its normal or bends so sharply that an element has no size or is turned over. */
+ * towards the normal. The pattern is a rectangle around the origin, along x as long as the chords between sections together. OUT_OF_RANGE if the curve runs along its normal or bends so sharply that an element has no size or is turned over. */
 typedef struct cipc_ribbon {
     int count;
     const double (*points)[3];  /* m */

@@ -88,6 +88,23 @@ static void place_section(cipc_mesh *mesh, const cipc_ribbon *ribbon, int i, con
     }
 }
 
+/* The same nodes on a rectangle in the x-z plane, `s` from the middle of its length. Chords, not arcs: where the ribbon bends across its width only, the pattern is its unfolding. */
+static void place_pattern(cipc_mesh *mesh, const cipc_ribbon *ribbon, int i, double s)
+{
+    for (int j = 0; j <= ribbon->across; j++) {
+        double *x = mesh->pattern + 3 * (i * (ribbon->across + 1) + j);
+        x[0] = s;
+        x[1] = 0;
+        x[2] = ribbon->width * ((double)j / ribbon->across - 0.5);
+    }
+}
+
+static void middle_pattern(cipc_mesh *mesh)
+{
+    double middle = 0.5 * mesh->pattern[3 * (mesh->node_count - 1)];
+    for (int i = 0; i < mesh->node_count; i++) mesh->pattern[3 * i] -= middle;
+}
+
 /* Seen along the normal of a section: is it turned up, with some of the size of half a flat cell? */
 static bool has_size(const cipc_mesh *mesh, const int triangle[3], const double normal[3], double half_cell)
 {
@@ -115,11 +132,16 @@ static cipc_status make_ribbon(cipc_mesh *mesh, const cipc_ribbon *ribbon, const
 {
     const double length = scene_curve_length(curve), half_cell = 0.5 * (length / ribbon->along) * (ribbon->width / ribbon->across);
     section at = {{0}, {0}, {0}};
+    double chords = 0, step[3];
     for (int i = 0; i <= ribbon->along; i++) {
         double s = length * ((double)i / ribbon->along);
+        const section before = at;
         cipc_status status = make_section(ribbon, curve, normals, s, &at, error);
         if (status != CIPC_OK) return status;
         place_section(mesh, ribbon, i, &at);
+        v3_sub(step, at.x, before.x);
+        if (i > 0) chords += v3_norm(step);
+        place_pattern(mesh, ribbon, i, chords);
         if (i == 0) continue;
         cut_cells(mesh, ribbon->across, i - 1);
         for (int t = 2 * (i - 1) * ribbon->across; t < 2 * i * ribbon->across; t++) {
@@ -127,6 +149,7 @@ static cipc_status make_ribbon(cipc_mesh *mesh, const cipc_ribbon *ribbon, const
             return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "%g m from its begin the curve bends too sharply for a ribbon of %g m: elements have no size there", s, ribbon->width);
         }
     }
+    middle_pattern(mesh);
     return CIPC_OK;
 }
 
@@ -152,6 +175,10 @@ cipc_status cipc_mesh_ribbon(cipc_mesh *mesh, const cipc_ribbon *ribbon, cipc_er
     if (status == CIPC_OK) {
         long long cells = scene_mesh_product(ribbon->along, ribbon->across);
         status = scene_mesh_allocate(mesh, scene_mesh_product(ribbon->along + 1LL, ribbon->across + 1LL), 2 * cells, place, error);
+    }
+    if (status == CIPC_OK) {
+        mesh->pattern = cipc_alloc(3 * (size_t)mesh->node_count, sizeof *mesh->pattern);
+        if (mesh->pattern == NULL) status = cipc_fail(error, CIPC_E_OUT_OF_MEMORY, place, "no memory for the pattern of %d nodes", mesh->node_count);
     }
     if (status == CIPC_OK) status = follow(mesh, ribbon, &curve, error);
     if (status != CIPC_OK) cipc_mesh_free(mesh);

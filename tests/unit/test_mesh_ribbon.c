@@ -6,12 +6,14 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "base/vector.h"
 #include "cipc/scene.h"
 #include "support/failing_memory.h"
 #include "support/mesh_properties.h"
+#include "support/scene_trial.h"
 
 static const double pi = 3.14159265358979323846;
 enum { POINTS_MAX = 65 };
@@ -150,6 +152,54 @@ static void test_twist(void **state)
     cipc_mesh_free(&mesh);
 }
 
+/* Of a strip of a cylinder the pattern is the unfolding: every side of every triangle is as long as in space, and no two points of the pattern coincide. */
+static void test_the_pattern_unfolds(void **state)
+{
+    (void)state;
+    double points[POINTS_MAX][3];
+    arc_points(points, 64, 2, pi);
+    cipc_ribbon ribbon = ribbon_of(65, (const double(*)[3])points, 0.5, 50, 3);
+    v3_copy(ribbon.normal, points[0]);
+    cipc_mesh mesh = make(&ribbon);
+    for (int t = 0; t < mesh.triangle_count; t++) {
+        for (int k = 0; k < 3; k++) {
+            int a = mesh.triangles[t][k], b = mesh.triangles[t][(k + 1) % 3];
+            double in_space[3], flat[3];
+            v3_sub(in_space, mesh.nodes + 3 * a, mesh.nodes + 3 * b);
+            v3_sub(flat, mesh.pattern + 3 * a, mesh.pattern + 3 * b);
+            assert_true(flat[1] == 0 && fabs(v3_norm(flat) / v3_norm(in_space) - 1) < 1e-12);
+        }
+    }
+    assert_true(mesh.pattern[0] == -mesh.pattern[3 * (mesh.node_count - 1)] && mesh.pattern[2] == -0.25);
+    cipc_mesh_free(&mesh);
+}
+
+static const char bent[] = "{\"time_step\": 1, \"steps\": 1, \"bodies\": [{\"name\": \"a\", \"material\": \"wool\", \"rest\": %s, \"transform\": {\"scale\": %s, \"translate\": [0, 1, 0]},"
+                           " \"shell\": {\"ribbon\": {\"points\": [[0, 0, 0], [1, 1, 0], [2, 0, 0]], \"width\": 0.5, \"along\": 8, \"across\": 1}}}]}";
+
+static double largest_rest_height(const char *rest)
+{
+    char text[600];
+    double highest = 0;
+    snprintf(text, sizeof text, bent, rest, "2");
+    cipc_scene *scene = accept_scene(text, NULL);
+    for (int i = 0; i < scene->model->node_count; i++) highest = fmax(highest, fabs(scene->model->rest[3 * i + 1]));
+    cipc_scene_destroy(scene);
+    return highest;
+}
+
+static void test_flat_at_rest(void **state)
+{
+    (void)state;
+    char text[600];
+    assert_true(largest_rest_height("\"initial\"") > 1.9); /* as it starts: at twice the size, before it is moved up */
+    assert_true(largest_rest_height("\"flat\"") == 0);
+    snprintf(text, sizeof text, bent, "\"flat\"", "[1, 2, 1]");
+    reject_scene(text, NULL, CIPC_E_OUT_OF_RANGE, "bodies.a.rest", "one scale");
+    reject_scene("{\"time_step\": 1, \"steps\": 1, \"bodies\": [{\"name\": \"a\", \"material\": \"wool\", \"rest\": \"flat\", \"shell\": {\"grid\": {\"size\": [1, 1], \"cells\": [1, 1]}}}]}", NULL,
+                 CIPC_E_OUT_OF_RANGE, "bodies.a.rest", "no flat pattern");
+}
+
 static void refuse(const cipc_ribbon *ribbon, const char *what)
 {
     cipc_mesh mesh;
@@ -224,6 +274,8 @@ int main(void)
         cmocka_unit_test(test_half_rings),
         cmocka_unit_test(test_least_rotation),
         cmocka_unit_test(test_twist),
+        cmocka_unit_test(test_the_pattern_unfolds),
+        cmocka_unit_test(test_flat_at_rest),
         cmocka_unit_test(test_too_sharp_a_bend),
         cmocka_unit_test(test_rejections_and_no_memory),
     };
