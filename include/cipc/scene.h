@@ -19,7 +19,7 @@ typedef struct cipc_mesh {
     int (*segments)[2];
     int tetrahedron_count;
     int (*tetrahedra)[4];      /* positive volume */
-    double *pattern;           /* of garments: the same nodes cut flat in the x-z plane, 3 * node_count, m; NULL: there is none */
+    double *pattern;           /* of garments and ribbons: the same nodes cut flat in the x-z plane, 3 * node_count, m; NULL: there is none */
     int panel_count, panel_columns, panel_rows; /* of garments: panels of columns * rows nodes each, row by row from the top, left to right; 0: none */
 } cipc_mesh;
 void cipc_mesh_free(cipc_mesh *mesh);
@@ -60,6 +60,18 @@ typedef struct cipc_pleating {
     double depth, gap;
 } cipc_pleating;
 cipc_status cipc_mesh_pleats(cipc_mesh *mesh, const cipc_panel_ring *ring, const cipc_pleating *pleats, cipc_error *error);
+/* Ribbon of a width along a smooth curve through `count` >= 2 points (natural cubic splines over the lengths of the chords), `along` x `across` cells cut along alternating
+ * diagonals. Cross-sections lie at equal lengths of the curve; node i (across + 1) + j is j-th of section i, from -width/2 to width/2 along tangent x normal; triangles are turned
+ * towards the normal. The pattern is a rectangle around the origin, along x as long as the chords between sections together. OUT_OF_RANGE if the curve runs along its normal or bends so sharply that an element has no size or is turned over. */
+typedef struct cipc_ribbon {
+    int count;
+    const double (*points)[3];  /* m */
+    const double (*normals)[3]; /* one for each point, of any length, interpolated as the points are; NULL: the first section's normal is carried along with the least rotation */
+    double normal[3];           /* of the first section; not read if `normals` are given */
+    double width;               /* m */
+    int along, across;
+} cipc_ribbon;
+cipc_status cipc_mesh_ribbon(cipc_mesh *mesh, const cipc_ribbon *ribbon, cipc_error *error);
 
 /* Rods. A polyline through `count` points, each stretch divided into `segments` equal segments; closed joins the last to the first. */
 cipc_status cipc_mesh_polyline(cipc_mesh *mesh, int count, const double (*points)[3], int segments, bool closed, cipc_error *error);
@@ -83,6 +95,15 @@ cipc_status cipc_mesh_solid_cylinder(cipc_mesh *mesh, double radius, double leng
 /* Solid of revolution about +y: the section is a lattice of `rows` x `columns` points (radius >= 0, height), row by row, its cells convex and all turned the same way; `sectors` >= 3 around.
  * Points on the axis are single nodes. Nodes: point by point, each around from +x towards -z. */
 cipc_status cipc_mesh_solid_revolution(cipc_mesh *mesh, int rows, int columns, const double (*points)[2], int sectors, cipc_error *error);
+
+/* A ball swept along a segment, its radius growing or shrinking evenly on the way; begin = end: a ball. */
+typedef struct cipc_capsule {
+    double begin[3], end[3]; /* m */
+    double radius[2];        /* m, > 0, at begin and end */
+} cipc_capsule;
+/* The union of capsules, figures for instance, filled with tetrahedra of a body-centred lattice of `cell` m; the surface's nodes lie on the capsules. `blend` (m, >= 0) rounds off the
+ * corners where parts meet. In one piece: OUT_OF_RANGE if parts do not meet or are thinner than the cells resolve. */
+cipc_status cipc_mesh_capsules(cipc_mesh *mesh, int count, const cipc_capsule *parts, double blend, double cell, cipc_error *error);
 
 /* By the file's ending: .obj (surface; with l lines only: segments; with v lines only: particles), .seg (segments, as OBJ lines), .msh (Gmsh ASCII 2.2 and 4.1), .vtk (legacy ASCII unstructured grid or
  * polydata). Elements of the wanted kind must be there; the nodes that they do not use are left out (particles: all nodes). */

@@ -22,6 +22,8 @@ static const cipc_scene_entry entries[] = {
     {"granules", "Granules fall on a cloth held by its corners", "C-IPC fig. 22; row 22", "tests/scenes/granules.json"},
     {"skirt", "Skirt of three layers on a dancer", "C-IPC fig. 5; row 5", "tests/scenes/skirt.json"},
     {"dress", "Knife-pleat dress on a dancer who kicks", "C-IPC fig. 5; row 5", "tests/scenes/dress.json"},
+    {"reef-knot", "Reef knot of two ribbons, pulled tight", "C-IPC fig. 4; row 4", "tests/scenes/reef-knot.json"},
+    {"all-in", "A figure, sand and a cloth fall into a net", "C-IPC fig. 23; row 23", "tests/scenes/all-in.json"},
     {"free-fall", "Cloth in free fall", "known answer E1", "tests/scenes/free-fall.json"},
     {"incline", "Plate on a slope", "known answer E3", "tests/scenes/incline.json"},
     {"resting", "Plate at rest on a floor", "known answer E4", "tests/scenes/resting.json"},

@@ -40,7 +40,7 @@ static void compare(scene_reader *r, const scene_cursor *cursor, cipc_mesh_kind 
 static double *copy_pattern(scene_reader *r, const scene_cursor *rest, const cipc_mesh *mesh)
 {
     if (mesh->pattern == NULL) {
-        scene_reject(r, rest, CIPC_E_OUT_OF_RANGE, "is \"flat\", but this mesh has no flat pattern: only gores and pleats have one");
+        scene_reject(r, rest, CIPC_E_OUT_OF_RANGE, "is \"flat\", but this mesh has no flat pattern: only gores, pleats and ribbons have one");
         return NULL;
     }
     size_t numbers = 3 * (size_t)mesh->node_count;

@@ -1,4 +1,4 @@
-/* Grid, irregular sheet, icosphere, shell of revolution, open cylinder, capsule, panels of a garment or file. */
+/* Grid, irregular sheet, icosphere, shell of revolution, open cylinder, capsule, panels of a garment, ribbon or file. */
 #include "scene/shell.h"
 
 #include <limits.h>
@@ -122,10 +122,38 @@ static void read_pleats(scene_reader *r, const scene_cursor *pleats, cipc_mesh *
     if (r->status == CIPC_OK) scene_adopt(r, pleats, cipc_mesh_pleats(mesh, &ring, &pleating, &error), &error);
 }
 
+/* Normals for all points, or one for the first. */
+static void read_ribbon(scene_reader *r, const scene_cursor *ribbon, cipc_mesh *mesh)
+{
+    static const char *const keys[] = {"points", "normals", "normal", "width", "along", "across", NULL};
+    static const double up[3] = {0, 1, 0};
+    cipc_error error;
+    int normal_count = 0;
+    double *normals = NULL;
+    if (!scene_is_object(r, ribbon, keys)) return;
+    cipc_ribbon d = {.width = scene_number(r, ribbon, "width", SCENE_REQUIRED_NUMBER, scene_positive)};
+    d.along = scene_integer(r, ribbon, "along", SCENE_REQUIRED, 1, SCENE_NODES_MAX);
+    d.across = scene_integer(r, ribbon, "across", SCENE_REQUIRED, 1, SCENE_NODES_MAX);
+    double *points = scene_points(r, ribbon, "points", 3, 2, SCENE_NODES_MAX, &d.count);
+    scene_cursor normal = scene_member(ribbon, "normal");
+    if (json_object_get(ribbon->value, "normals") == NULL) {
+        scene_vector(r, ribbon, "normal", up, d.normal);
+    } else if (normal.value != NULL) {
+        scene_reject(r, &normal, CIPC_E_OUT_OF_RANGE, "is given beside 'normals', which say the first normal too");
+    } else if (r->status == CIPC_OK) {
+        normals = scene_points(r, ribbon, "normals", 3, (size_t)d.count, (size_t)d.count, &normal_count);
+    }
+    d.points = (const double(*)[3])points;
+    d.normals = (const double(*)[3])normals;
+    if (r->status == CIPC_OK) scene_adopt(r, ribbon, cipc_mesh_ribbon(mesh, &d, &error), &error);
+    cipc_free(points);
+    cipc_free(normals);
+}
+
 void scene_read_shell(scene_reader *r, const scene_cursor *shell, unsigned long seed, cipc_mesh *mesh)
 {
-    enum { GRID, IRREGULAR, ICOSPHERE, REVOLUTION, CYLINDER, CAPSULE, GORES, PLEATS, MESH };
-    static const char *const keys[] = {"grid", "irregular", "icosphere", "revolution", "cylinder", "capsule", "gores", "pleats", "mesh", NULL};
+    enum { GRID, IRREGULAR, ICOSPHERE, REVOLUTION, CYLINDER, CAPSULE, GORES, PLEATS, RIBBON, MESH };
+    static const char *const keys[] = {"grid", "irregular", "icosphere", "revolution", "cylinder", "capsule", "gores", "pleats", "ribbon", "mesh", NULL};
     *mesh = (cipc_mesh){0};
     if (!scene_is_object(r, shell, keys)) return;
     int way = scene_one_of(r, shell, keys);
@@ -147,6 +175,8 @@ void scene_read_shell(scene_reader *r, const scene_cursor *shell, unsigned long 
         read_gores(r, &member, mesh);
     else if (way == PLEATS)
         read_pleats(r, &member, mesh);
+    else if (way == RIBBON)
+        read_ribbon(r, &member, mesh);
     else
         scene_read_mesh_file(r, shell, CIPC_MESH_TRIANGLES, mesh);
 }

@@ -121,7 +121,7 @@ static void test_flat_is_the_pattern(void **state)
 static void test_rejections_of_flat(void **state)
 {
     (void)state;
-    reject_around("", "@\"rest\": \"flat\",", CIPC_E_OUT_OF_RANGE, "bodies.cloth.rest", "only gores and pleats have one");
+    reject_around("", "@\"rest\": \"flat\",", CIPC_E_OUT_OF_RANGE, "bodies.cloth.rest", "only gores, pleats and ribbons have one");
     reject_around("", "@\"rest\": \"flet\",", CIPC_E_OUT_OF_RANGE, "bodies.cloth.rest", "flat");
     reject_scene(GARMENT("@\"rest\": \"flat\"", "{\"scale\": [1, 1, 2]}"), NULL, CIPC_E_OUT_OF_RANGE, "bodies.a.rest", "one scale for all");
 }

@@ -115,6 +115,24 @@ static void test_rejections_of_garments(void **state)
         CIPC_E_OUT_OF_RANGE, "t.json:1:2 pleats", "more cells forward and back");
 }
 
+/* Faces up unless told otherwise. */
+static void test_ribbons(void **state)
+{
+    (void)state;
+    static const double points[3][3] = {{0, 0, 0}, {0.5, 0.25, 0}, {1, 0, 0}}, normals[3][3] = {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}};
+    cipc_ribbon ribbon = {.count = 3, .points = points, .normal = {0, 1, 0}, .width = 0.25, .along = 6, .across = 2};
+    cipc_mesh want, got = read_mesh("{\"ribbon\": {\"points\": [[0, 0, 0], [0.5, 0.25, 0], [1, 0, 0]], \"width\": 0.25, \"along\": 6, \"across\": 2}}");
+    assert_same_mesh(&got, &want, cipc_mesh_ribbon(&want, &ribbon, NULL));
+    ribbon.normal[1] = 0;
+    ribbon.normal[2] = 2;
+    got = read_mesh("{\"ribbon\": {\"points\": [[0, 0, 0], [0.5, 0.25, 0], [1, 0, 0]], \"width\": 0.25, \"along\": 6, \"across\": 2, \"normal\": [0, 0, 2]}}");
+    assert_same_mesh(&got, &want, cipc_mesh_ribbon(&want, &ribbon, NULL));
+    ribbon.normals = normals;
+    got = read_mesh("{\"ribbon\": {\"points\": [[0, 0, 0], [0.5, 0.25, 0], [1, 0, 0]], \"width\": 0.25, \"along\": 6, \"across\": 2,"
+                    " \"normals\": [[0, 1, 0], [0, 0, 1], [0, -1, 0]]}}");
+    assert_same_mesh(&got, &want, cipc_mesh_ribbon(&want, &ribbon, NULL));
+}
+
 /* Without a seed of its own a sheet takes the scene's, and the tree says so. */
 static void test_the_seed_of_the_scene(void **state)
 {
@@ -162,6 +180,14 @@ static void test_rejections(void **state)
                    "t.json:1:41 cylinder.around", "at least 3");
     assert_refused("{\"cylinder\": {\"radius\": 1, \"around\": 3, \"along\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 cylinder.length",
                    "missing");
+    assert_refused("{\"ribbon\": {\"points\": [[0, 0, 0]], \"width\": 1, \"along\": 1, \"across\": 1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:13 ribbon.points", "at least 2");
+    assert_refused("{\"ribbon\": {\"points\": [[0, 0, 0], [1, 0, 0]], \"width\": 0, \"along\": 1, \"across\": 1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:47 ribbon.width", "greater than 0");
+    assert_refused("{\"ribbon\": {\"points\": [[0, 0, 0], [1, 0, 0]], \"width\": 1, \"along\": 1, \"across\": 1, \"normal\": [1, 0, 0]}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:2 ribbon", "no direction");
+    assert_refused("{\"ribbon\": {\"points\": [[0, 0, 0], [1, 0, 0]], \"width\": 1, \"along\": 1, \"across\": 1, \"normals\": [[0, 1, 0]]}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:84 ribbon.normals", "must have 2");
+    assert_refused("{\"ribbon\": {\"points\": [[0, 0, 0], [1, 0, 0]], \"width\": 1, \"along\": 1, \"across\": 1, \"normal\": [0, 1, 0], \"normals\": [[0, 1, 0], [0, 1, 0]]}}",
+                   CIPC_E_OUT_OF_RANGE, "t.json:1:84 ribbon.normal", "beside");
     assert_refused("{\"mesh\": 1}", CIPC_E_WRONG_TYPE, "t.json:1:2 mesh", "a string");
     assert_refused("{\"mesh\": \"/nowhere/at/all.obj\"}", CIPC_E_MISSING_FILE, "t.json:1:2 mesh", "'/nowhere/at/all.obj' cannot be opened");
     assert_refused("[]", CIPC_E_WRONG_TYPE, "t.json:1:1", "an object");
@@ -207,6 +233,7 @@ int main(void)
         cmocka_unit_test(test_round_shells),
         cmocka_unit_test(test_garments),
         cmocka_unit_test(test_rejections_of_garments),
+        cmocka_unit_test(test_ribbons),
         cmocka_unit_test(test_the_seed_of_the_scene),
         cmocka_unit_test(test_rejections),
         cmocka_unit_test(test_files),
