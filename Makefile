@@ -56,7 +56,7 @@ TEST_SUPPORT := $(BUILD)/obj/libsupport.a
 TESTS := $(patsubst %.c,$(BUILD)/%,$(TEST_SOURCES))
 
 # ---- Targets for people -----------------------------------------------------------------------------------------------------
-.PHONY: help all deps deps-all demo check verify validation claims mutants nightly coverage sanitize valgrind lint bench format install uninstall clean
+.PHONY: help all deps deps-all demo check verify validation claims golden mutants nightly coverage sanitize valgrind lint bench format install uninstall clean
 .DEFAULT_GOAL := all
 
 # A plain `make check` uses every core; an explicit -j is respected.
@@ -108,6 +108,10 @@ SIZE ?= ci
 claims: ## run what shows the papers' claims (SIZE=ci; desk and paper take hours), write docs/claims.md, build/claims.json, build/claims.xml
 	$(SUBMAKE) all $$(ci/claims --programs --build $(BUILD))
 	@ci/claims --build $(BUILD) --size $(SIZE)
+
+golden: ## make the golden files anew: SCENES="a b" or all; prints what changed, refuses where an invariant fails (tests/golden/README.md)
+	$(SUBMAKE) all $(BUILD)/tests/scenes/test_scenes
+	@ci/golden $(BUILD) $(SCENES)
 
 mutants: ## plant every fault of ci/mutants.list and see the named check reject it; docs/mutants.md
 	$(SUBMAKE) all tests
@@ -196,7 +200,7 @@ tests: $(TESTS)
 CHECKS := 'ci/check-layers' 'ci/check-layers --self-test' 'ci/check-symbols $(BUILD)' 'ci/check-symbols --self-test' \
     $(if $(PROGRAM),'ci/check-docs $(BUILD)') 'ci/check-docs --self-test' 'ci/check-install $(BUILD)' 'ci/run-tests --self-test' \
     'tests/conformance/check $(BUILD)' 'tests/conformance/check-verify $(BUILD)' 'ci/mutants --self-test' 'ci/mutants --fast --build $(BUILD)' \
-    'ci/check-gappa' 'ci/check-gappa --self-test' 'ci/validation --self-test' 'ci/scene-costs --self-test' \
+    'ci/check-gappa' 'ci/check-gappa --self-test' 'ci/validation --self-test' 'ci/golden --self-test' 'ci/scene-costs --self-test' \
     $(if $(PROGRAM),'ci/claims --check --build $(BUILD)') 'ci/claims --self-test' 'ci/nightly --self-test'
 
 verdict: all tests
