@@ -283,6 +283,11 @@ int scene_entry_of(const scene_bodies *bodies, int body)
     return e;
 }
 
+const cipc_mesh *scene_mesh_of(const scene_bodies *bodies, int body)
+{
+    return &bodies->bodies[bodies->entries[scene_entry_of(bodies, body)].first].mesh;
+}
+
 int scene_find_bodies(scene_reader *r, const scene_cursor *cursor, const scene_bodies *bodies, int *count)
 {
     const char *name = scene_string_at(r, cursor), *nearest = NULL;

@@ -34,6 +34,8 @@ void scene_bodies_free(scene_bodies *bodies);
 
 /* Read "bodies". What is wrong with a body is rejected; free in any case. */
 void scene_read_bodies(scene_reader *reader, const scene_cursor *root, unsigned long seed, bool released, scene_bodies *bodies);
+/* The mesh of a body; that of the first for all copies. */
+const cipc_mesh *scene_mesh_of(const scene_bodies *bodies, int body);
 /* The element of the scene's list that a body comes from. */
 int scene_entry_of(const scene_bodies *bodies, int body);
 /* The index of the body that the string under the cursor names; rejects unknown names with the nearest known one (and returns 0). */

@@ -144,7 +144,7 @@ static int read_side(seam_reader *s, const scene_cursor *seam, const char *body_
     int body = read_body(s, seam, body_key);
     scene_cursor name = scene_member(seam, body_key);
     *side = (scene_side)scene_choice(s->r, seam, side_key, "side", names, SCENE_REQUIRED);
-    if (s->bodies->bodies[body].mesh.panel_count == 0)
+    if (scene_mesh_of(s->bodies, body)->panel_count == 0)
         scene_reject(s->r, &name, CIPC_E_OUT_OF_RANGE, "'%s' has no sides: only gores and pleats have them; sew others by nodes_a and nodes_b",
                      s->bodies->descriptions[body].name);
     return body;
@@ -154,7 +154,7 @@ static int read_side(seam_reader *s, const scene_cursor *seam, const char *body_
 static void sew_to_side(seam_reader *s, const scene_cursor *seam, int body_a, int node, int body_b, scene_side side, double stiffness)
 {
     const scene_body *a = &s->bodies->bodies[body_a], *b = &s->bodies->bodies[body_b];
-    scene_side_point point = scene_nearest_on_side(&b->mesh, b->position, side, a->position + 3 * node, body_a == body_b ? node : -1);
+    scene_side_point point = scene_nearest_on_side(scene_mesh_of(s->bodies, body_b), b->position, side, a->position + 3 * node, body_a == body_b ? node : -1);
     if (point.nodes[0] < 0) {
         scene_reject(s->r, seam, CIPC_E_OUT_OF_RANGE, "node %d has no edge to be sewn to: it belongs to all of the side", node);
         return;
@@ -173,7 +173,7 @@ static void read_side_seam(seam_reader *s, const scene_cursor *seam)
     double stiffness = read_stiffness(s, seam);
     scene_cursor other = scene_member(seam, "side_b");
     if (body_a == body_b && side_a == side_b) scene_reject(s->r, &other, CIPC_E_OUT_OF_RANGE, "is the side that is to be sewn to it");
-    const cipc_mesh *mesh = &s->bodies->bodies[body_a].mesh;
+    const cipc_mesh *mesh = scene_mesh_of(s->bodies, body_a);
     for (int p = 0; p < mesh->panel_count; p++) {
         for (int i = 0; i < scene_side_length(mesh, side_a) && s->r->status == CIPC_OK; i++)
             sew_to_side(s, seam, body_a, scene_side_node(mesh, side_a, p, i), body_b, side_b, stiffness);

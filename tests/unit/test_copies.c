@@ -89,6 +89,23 @@ static void test_place_of_what_the_model_rejects(void **state)
                        "\"diameter\": 1, \"young\": 1, \"rest\": {\"scale\": 1e-320}}", ""), NULL, CIPC_E_BAD_MESH, "bodies.flat.rods", "");
 }
 
+/* Copies of a garment have its pattern as rest shape and its sides: a lower tier sewn under the upper one, row by row. */
+static void test_copies_of_garments(void **state)
+{
+    (void)state;
+    cipc_scene *s = accept_scene("{\"time_step\": 0.5, \"steps\": 1, \"bodies\": [{\"name\": \"tier\", \"material\": \"wool\", \"rest\": \"flat\", \"shell\": {\"gores\": {\"top\": 0.1, "
+                                 "\"bottom\": 0.1, \"height\": 0.2, \"cells\": [5, 1]}}, \"copies\": {\"count\": 2, \"translate\": [0, -0.25, 0]}}],"
+                                 "\"stitches\": [{\"body_a\": \"tier-1\", \"side_a\": \"bottom\", \"body_b\": \"tier-2\", \"side_b\": \"top\"}]}", NULL);
+    assert_int_equal(s->model->node_count, 24);
+    assert_int_equal(s->model->stitch_count, 6);
+    for (int i = 0; i < 6; i++) {
+        const int *nodes = s->model->stitches[i].nodes;
+        assert_true(nodes[0] == 6 + i && nodes[1] >= 12 && nodes[1] < 18 && nodes[2] >= 12 && nodes[2] < 18);
+    }
+    for (int k = 0; k < 36; k++) assert_true(s->model->rest[k] == s->model->rest[36 + k]);
+    cipc_scene_destroy(s);
+}
+
 static void test_rejections(void **state)
 {
     (void)state;
@@ -110,6 +127,7 @@ int main(void)
         cmocka_unit_test(test_places_and_names),
         cmocka_unit_test(test_friction_among_copies),
         cmocka_unit_test(test_dirichlet_sets_of_copies),
+        cmocka_unit_test(test_copies_of_garments),
         cmocka_unit_test(test_subject_of_the_pictures),
         cmocka_unit_test(test_place_of_what_the_model_rejects),
         cmocka_unit_test(test_rejections),
