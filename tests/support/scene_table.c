@@ -31,7 +31,6 @@ const scene_variant scene_variants[] = {
     {"rotating-sphere", SCENE("rotating-sphere", NULL), {{0}}},
     {"tablecloth", SCENE("tablecloth", NULL), {{0}}},
     {"twisted-cylinder", SCENE("twisted-cylinder", NULL), {{0}}},
-    {"twisted-cylinder-thin", SCENE("twisted-cylinder", "bodies.cylinder.offset=0"), {{0}}},
     {"braids", SCENE("braids", NULL), {{0}}},
     {"hairs", SCENE("hairs", NULL), {{0}}},
     {"reef-knot", SCENE("reef-knot", NULL), {{0}}},
