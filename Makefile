@@ -56,7 +56,7 @@ TEST_SUPPORT := $(BUILD)/obj/libsupport.a
 TESTS := $(patsubst %.c,$(BUILD)/%,$(TEST_SOURCES))
 
 # ---- Targets for people -----------------------------------------------------------------------------------------------------
-.PHONY: help all deps deps-all demo check verify validation mutants coverage sanitize valgrind lint bench format install uninstall clean
+.PHONY: help all deps deps-all demo check verify validation golden mutants coverage sanitize valgrind lint bench format install uninstall clean
 .DEFAULT_GOAL := all
 
 # A plain `make check` uses every core; an explicit -j is respected.
@@ -101,6 +101,10 @@ validation: ## physics against closed forms: run their tests, write the table an
 	@rm -f $(BUILD)/validation.tsv
 	@for t in $(VALIDATION_TESTS); do CIPC_VALIDATION=$(BUILD)/validation.tsv $(BUILD)/tests/scenes/test_$$t >/dev/null 2>$(BUILD)/validation.log || { cat $(BUILD)/validation.log; exit 1; }; done
 	@ci/validation $(BUILD)/validation.tsv docs/validation.md docs/images
+
+golden: ## make the golden files anew: SCENES="a b" or all; prints what changed, refuses where an invariant fails (tests/golden/README.md)
+	$(SUBMAKE) all $(BUILD)/tests/scenes/test_scenes
+	@ci/golden $(BUILD) $(SCENES)
 
 mutants: ## plant every fault of ci/mutants.list and see the named check reject it; docs/mutants.md
 	$(SUBMAKE) all tests
@@ -186,7 +190,7 @@ tests: $(TESTS)
 CHECKS := 'ci/check-layers' 'ci/check-layers --self-test' 'ci/check-symbols $(BUILD)' 'ci/check-symbols --self-test' \
     $(if $(PROGRAM),'ci/check-docs $(BUILD)') 'ci/check-docs --self-test' 'ci/check-install $(BUILD)' 'ci/run-tests --self-test' \
     'tests/conformance/check $(BUILD)' 'tests/conformance/check-verify $(BUILD)' 'ci/mutants --self-test' 'ci/mutants --fast --build $(BUILD)' \
-    'ci/check-gappa' 'ci/check-gappa --self-test' 'ci/validation --self-test'
+    'ci/check-gappa' 'ci/check-gappa --self-test' 'ci/validation --self-test' 'ci/golden --self-test'
 
 verdict: all tests
 	@CIPC=$(BUILD)/cipc ci/run-tests $(BUILD)/tests $(CHECKS) $(TESTS)

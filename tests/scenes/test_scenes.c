@@ -1,8 +1,9 @@
-/* Every scene of the catalogue and its variants, at the size for continuous integration: every step converges, every invariant holds at
- * every accepted point, and the end lies within the golden bands (tests/golden). Prints the figures that docs/claims.md quotes.
+/* What the scenes of tests/support/scene_table.h show beyond their own runs, which test_golden_*.c hold against golden files: that threads
+ * change nothing, that the golden check rejects what is wrong, and claims. Prints the figures that docs/claims.md quotes.
  *
- *     test_scenes                        the tests
- *     test_scenes --regenerate [NAME]... makes the golden files anew (tests/golden/README.md) */
+ *     test_scenes                                        the tests
+ *     test_scenes --list                                 the names of the scenes
+ *     test_scenes --record NAME THREADS JITTER SEED      one run, as JSON (scene_table.h); ci/golden makes golden files of such runs */
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -14,130 +15,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "support/golden_bands.h"
-#include "support/scene_run.h"
+#include "support/golden_program.h"
 
-/* ---- The scenes ------------------------------------------------------------------------------------------------------------- */
-
-typedef struct variant {
-    const char *name;
-    scene_request request;
-} variant;
-
-/* One thread: other tests run on the other cores, and the results are those of any number (test_threads_change_nothing). */
-#define SCENE(file_name, ...) {.file = "tests/scenes/" file_name ".json", .threads = 1, .overrides = {__VA_ARGS__}}
-#define NO_LIMIT "bodies.cloth.strain_limit=false"
-#define LIMIT(s) "bodies.cloth.strain_limit.limit=" #s
-#define MEMBRANE(m) "bodies.cloth.membrane_factor=" #m
-
-static const variant variants[] = {
-    {"drape-membrane-1", SCENE("drape", MEMBRANE(1), NO_LIMIT)},
-    {"drape-membrane-1-limit-1.0608", SCENE("drape", MEMBRANE(1), LIMIT(1.0608))},
-    {"drape-membrane-0.1", SCENE("drape", MEMBRANE(0.1), NO_LIMIT)},
-    {"drape-membrane-0.1-limit-1.0608", SCENE("drape", MEMBRANE(0.1), LIMIT(1.0608))},
-    {"drape-membrane-0.01", SCENE("drape", MEMBRANE(0.01), NO_LIMIT)},
-    {"drape-membrane-0.01-limit-1.0608", SCENE("drape", MEMBRANE(0.01), LIMIT(1.0608))},
-    {"drape-membrane-0.01-limit-1.01", SCENE("drape", MEMBRANE(0.01), LIMIT(1.01))},
-    {"drape-membrane-0.01-limit-1.001", SCENE("drape", MEMBRANE(0.01), LIMIT(1.001))},
-    {"two-corner-hang-limit-1.0608", SCENE("two-corner-hang", LIMIT(1.0608))},
-    {"two-corner-hang-limit-1.01", SCENE("two-corner-hang", LIMIT(1.01))},
-    {"two-corner-hang-limit-1.001", SCENE("two-corner-hang", LIMIT(1.001))},
-    {"rotating-sphere", SCENE("rotating-sphere", NULL)},
-    {"free-fall", SCENE("free-fall", NULL)},
-    {"incline", SCENE("incline", NULL)},
-    {"incline-sticks", SCENE("incline", "friction.0.mu=0.5")},
-    {"resting", SCENE("resting", NULL)},
-};
-enum { VARIANTS = sizeof variants / sizeof variants[0] };
-
-static const variant *variant_of(const char *name)
+static scene_request request_of(const char *name)
 {
-    for (int i = 0; i < VARIANTS; i++) {
-        if (strcmp(variants[i].name, name) == 0) {
-            return &variants[i];
-        }
+    const scene_variant *variant = scene_variant_of(name);
+    if (variant == NULL) {
+        fail_msg("no scene %s", name);
     }
-    return NULL;
+    return variant->request;
 }
 
-enum { PATH_SIZE = 128, COMMAND_SIZE = 256 };
-
-static void golden_path(const variant *v, char path[PATH_SIZE])
+static golden bands_of(const char *name)
 {
-    snprintf(path, PATH_SIZE, "tests/golden/%s.json", v->name);
-}
-
-/* The run as a user would ask for it. */
-static void command_of(const variant *v, char command[COMMAND_SIZE])
-{
-    size_t length = (size_t)snprintf(command, COMMAND_SIZE, "cipc run %s", v->request.file);
-    for (int i = 0; v->request.overrides[i] != NULL; i++) {
-        length += (size_t)snprintf(command + length, COMMAND_SIZE - length, " --set %s", v->request.overrides[i]);
+    const scene_variant *variant = scene_variant_of(name);
+    if (variant == NULL) {
+        fail_msg("no scene %s", name);
     }
-}
-
-/* ---- Running ---------------------------------------------------------------------------------------------------------------- */
-
-static scene_outcome run_or_fail(const scene_request *request)
-{
-    scene_outcome outcome;
-    cipc_error error;
-    if (scene_run(request, &outcome, &error) != CIPC_OK) {
-        scene_outcome_free(&outcome);
-        fail_msg("%s: %s: %s", request->file, error.place, error.what);
-    }
-    return outcome;
-}
-
-/* The monitors have looked, and what they report agrees with their verdicts. */
-static void assert_monitored(const scene_outcome *o)
-{
-    assert_true(o->steps > 0 && o->points >= o->steps);
-    assert_true(o->energy_checks > 0 && o->energy_checks <= o->points);
-    assert_true(o->min_gap > 0);
-    if (o->stretch_limit > 0) {
-        assert_true(o->max_stretch < o->stretch_limit && o->max_stretch_ratio < 1);
-    }
-}
-
-static void print_figures(const char *name, const scene_outcome *o)
-{
-    print_message("%s: %d steps, %d nodes, %ld points checked, %.0f Newton iterations, at most %d contacts, min gap %.3g m, "
-                  "largest stretch %.7f, largest (sigma - 1)/(s - 1) %.4f, exact gap checks %ld, exact strain checks %ld, paths %ld, of which exact %ld\n",
-                  name, o->steps, o->node_count, o->points, o->quantity[QUANTITY_newton_iterations], o->max_contacts, o->min_gap,
-                  o->max_stretch, o->max_stretch_ratio, o->exact_gap_checks, o->exact_strain_checks, o->paths_checked, o->exact_path_checks);
-}
-
-static golden_bands bands_or_fail(const variant *v)
-{
-    char path[PATH_SIZE], command[COMMAND_SIZE], why[GOLDEN_REASON];
-    golden_bands bands;
-    golden_path(v, path);
-    command_of(v, command);
-    if (!golden_read(path, command, &bands, why)) {
-        fail_msg("%s", why);
-    }
-    return bands;
-}
-
-/* One scene: cmocka lists this test under the variant's name. */
-static void test_variant(void **state)
-{
-    const variant *v = *state;
-    char why[GOLDEN_REASON];
-    const golden_bands bands = bands_or_fail(v);
-    scene_outcome outcome = run_or_fail(&v->request);
-    const bool within = golden_accepts(&bands, outcome.quantity, why);
-    print_figures(v->name, &outcome);
-    assert_monitored(&outcome);
-    if (strstr(v->request.file, "hang") == NULL && strstr(v->request.file, "free-fall") == NULL) {
-        assert_true(outcome.max_contacts > 0);
-        assert_true(outcome.max_friction > 0 || strstr(v->request.file, "resting") != NULL);
-    }
-    scene_outcome_free(&outcome);
-    if (!within) {
-        fail_msg("%s: %s", v->name, why);
-    }
+    return golden_bands_or_fail(variant);
 }
 
 /* ---- Threads ---------------------------------------------------------------------------------------------------------------- */
@@ -146,14 +41,14 @@ static void test_variant(void **state)
 static void assert_threads_change_nothing(scene_request request)
 {
     request.threads = 1;
-    scene_outcome one = run_or_fail(&request);
+    scene_outcome one = golden_run_or_fail(&request);
     request.threads = 2;
-    scene_outcome two = run_or_fail(&request);
+    scene_outcome two = golden_run_or_fail(&request);
     const size_t size = 3 * (size_t)one.node_count * sizeof(double);
     assert_int_equal(one.node_count, two.node_count);
     assert_memory_equal(one.position, two.position, size);
     assert_memory_equal(one.velocity, two.velocity, size);
-    assert_memory_equal(one.quantity, two.quantity, sizeof one.quantity);
+    assert_memory_equal(&one.last, &two.last, sizeof one.last);
     assert_int_equal(one.points, two.points);
     scene_outcome_free(&one);
     scene_outcome_free(&two);
@@ -162,7 +57,7 @@ static void assert_threads_change_nothing(scene_request request)
 static void test_threads_change_nothing(void **state)
 {
     (void)state;
-    assert_threads_change_nothing(variant_of("drape-membrane-0.01-limit-1.0608")->request);
+    assert_threads_change_nothing(request_of("drape-membrane-0.01-limit-1.0608"));
 }
 
 /* Larger systems are factorised in halves, by two threads at a time. */
@@ -177,11 +72,11 @@ static void test_threads_change_nothing_in_larger_systems(void **state)
 static void test_comparison_of_threads_sees_one_ulp(void **state)
 {
     (void)state;
-    scene_request request = variant_of("resting")->request;
-    scene_outcome one = run_or_fail(&request);
+    scene_request request = request_of("resting");
+    scene_outcome one = golden_run_or_fail(&request);
     request.jitter = 0x1p-53; /* the plate starts at 6e-4 m, where doubles are 2^-63 apart, and at 0.5 m, where they are 2^-53 apart */
     request.jitter_seed = 1;
-    scene_outcome two = run_or_fail(&request);
+    scene_outcome two = golden_run_or_fail(&request);
     assert_memory_not_equal(one.position, two.position, 3 * (size_t)one.node_count * sizeof(double));
     scene_outcome_free(&one);
     scene_outcome_free(&two);
@@ -189,65 +84,78 @@ static void test_comparison_of_threads_sees_one_ulp(void **state)
 
 /* ---- The golden check rejects what is wrong --------------------------------------------------------------------------------- */
 
-/* Just outside either end, and what is no number. */
+static scene_frame middle_of(const golden *bands, int index)
+{
+    scene_frame middle;
+    for (int i = 0; i < SCENE_NUMBERS; i++) {
+        scene_frame_numbers(&middle)[i] = 0.5 * scene_frame_values(&bands->low[index])[i] + 0.5 * scene_frame_values(&bands->high[index])[i];
+    }
+    return middle;
+}
+
+/* Just outside either end, and what is no number; of a quantity that the file leaves out everything but 0. */
+static void assert_frame_is_tight(const golden *bands, int index)
+{
+    char why[GOLDEN_REASON];
+    scene_frame frame = middle_of(bands, index);
+    assert_true(golden_accepts(bands, index, &frame, why));
+    for (int i = 0; i < SCENE_NUMBERS; i++) {
+        const double low = scene_frame_values(&bands->low[index])[i], high = scene_frame_values(&bands->high[index])[i];
+        const double wrong[] = {nextafter(low, -INFINITY), nextafter(high, INFINITY), NAN, INFINITY, -INFINITY};
+        double *number = scene_frame_numbers(&frame) + i;
+        const double right = *number;
+        for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
+            *number = wrong[k];
+            assert_false(golden_accepts(bands, index, &frame, why));
+            assert_non_null(strstr(why, scene_quantity_name(scene_quantity_of(i))));
+        }
+        *number = right;
+    }
+}
+
 static void test_values_outside_a_band_are_rejected(void **state)
 {
     (void)state;
-    for (int i = 0; i < VARIANTS; i++) {
-        const golden_bands bands = bands_or_fail(&variants[i]);
-        double inside[QUANTITY_COUNT];
-        char why[GOLDEN_REASON];
-        for (int q = 0; q < QUANTITY_COUNT; q++) {
-            inside[q] = 0.5 * bands.low[q] + 0.5 * bands.high[q];
-        }
-        assert_true(golden_accepts(&bands, inside, why));
-        for (int q = 0; q < QUANTITY_COUNT; q++) {
-            const double wrong[] = {nextafter(bands.low[q], -INFINITY), nextafter(bands.high[q], INFINITY), NAN, INFINITY, -INFINITY};
-            const double right = inside[q];
-            for (size_t k = 0; k < sizeof wrong / sizeof wrong[0]; k++) {
-                inside[q] = wrong[k];
-                assert_false(golden_accepts(&bands, inside, why));
-                assert_non_null(strstr(why, scene_quantity_name((scene_quantity)q)));
-            }
-            inside[q] = right;
+    for (int i = 0; i < scene_variant_count; i++) {
+        const golden bands = golden_bands_or_fail(&scene_variants[i]);
+        for (int k = 0; k < bands.frame_count; k++) {
+            assert_frame_is_tight(&bands, k);
         }
     }
 }
 
-/* Runs of slightly wrong physics end outside the bands: gravity off by 0.1 %, friction by 2 %, a limit of 1.02 for 1.01. */
-static void test_wrong_physics_is_rejected(void **state)
+/* The middles of all frames, as a run would show them; `steps` of them. */
+static golden_check watched(const golden *bands, int steps)
+{
+    golden_check check = {.bands = bands};
+    int index = 0;
+    for (int step = 1; step <= steps; step++) {
+        const scene_frame frame = middle_of(bands, index);
+        assert_true(golden_watch(&check, step, &frame));
+        index += step == bands->frames[index] && index + 1 < bands->frame_count;
+    }
+    return check;
+}
+
+static void test_runs_of_another_shape_are_rejected(void **state)
 {
     (void)state;
-    static const struct {
-        const char *name, *fault;
-    } faults[] = {
-        {"free-fall", "gravity=[0,-9.80019,0]"},
-        {"incline", "friction.0.mu=0.204"},
-        {"incline-sticks", "contact.friction_velocity=2e-3"},
-        {"resting", "contact.dhat=1.1e-3"},
-        {"two-corner-hang-limit-1.01", LIMIT(1.02)},
-    };
-    for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
-        const variant *v = variant_of(faults[i].name);
-        scene_request request = v->request;
-        int count = 0;
-        while (request.overrides[count] != NULL) {
-            count++;
-        }
-        request.overrides[count] = faults[i].fault; /* after the variant's own: it counts */
-        const golden_bands bands = bands_or_fail(v);
-        char why[GOLDEN_REASON];
-        scene_outcome outcome = run_or_fail(&request);
-        const bool accepted = golden_accepts(&bands, outcome.quantity, why);
-        scene_outcome_free(&outcome);
-        if (accepted) {
-            fail_msg("%s with %s is accepted", faults[i].name, faults[i].fault);
-        }
-        print_message("%s with %s: %s\n", faults[i].name, faults[i].fault, why);
-    }
+    const golden bands = bands_of("free-fall");
+    golden_check whole = watched(&bands, bands.steps), shorter = watched(&bands, bands.steps - 1), longer = watched(&bands, bands.steps + 1);
+    const int probe[SCENE_PROBES] = {bands.probe[0], bands.probe[1], bands.probe[2] + 1};
+    assert_true(golden_verdict(&whole, bands.steps, bands.probe));
+    assert_false(golden_verdict(&shorter, bands.steps - 1, bands.probe));
+    assert_false(golden_verdict(&shorter, bands.steps, bands.probe)); /* even if it says that it took all steps */
+    assert_false(golden_verdict(&longer, bands.steps + 1, bands.probe));
+    assert_false(golden_verdict(&whole, bands.steps, probe));
+    scene_frame frame = middle_of(&bands, 0);
+    golden_check check = {.bands = &bands};
+    frame.kinetic[0] = NAN;
+    assert_false(golden_watch(&check, 1, &frame));
+    assert_false(golden_verdict(&check, bands.steps, bands.probe));
 }
 
-/* Runs of one variant are not accepted as those of another where these differ in physics. */
+/* Bands of scenes that differ in stiffness, limit or friction are not those of one run. */
 static void test_bands_tell_variants_apart(void **state)
 {
     (void)state;
@@ -264,13 +172,11 @@ static void test_bands_tell_variants_apart(void **state)
         {"incline", "incline-sticks"},
     };
     for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++) {
-        const golden_bands a = bands_or_fail(variant_of(pairs[i][0])), b = bands_or_fail(variant_of(pairs[i][1]));
-        bool disjoint = false;
-        for (int q = 0; q < QUANTITY_COUNT; q++) {
-            disjoint = disjoint || a.high[q] < b.low[q] || b.high[q] < a.low[q];
-        }
-        if (!disjoint) {
-            fail_msg("%s and %s overlap in every band", pairs[i][0], pairs[i][1]);
+        const golden a = bands_of(pairs[i][0]), b = bands_of(pairs[i][1]);
+        const scene_frame middle = middle_of(&a, a.frame_count - 1);
+        char why[GOLDEN_REASON];
+        if (golden_accepts(&b, b.frame_count - 1, &middle, why)) {
+            fail_msg("%s ends within the bands of %s", pairs[i][0], pairs[i][1]);
         }
     }
 }
@@ -278,7 +184,7 @@ static void test_bands_tell_variants_apart(void **state)
 static bool accepts_text(const char *text, char why[GOLDEN_REASON])
 {
     char path[] = "/tmp/cipc-golden-XXXXXX";
-    golden_bands bands;
+    golden bands;
     const int file = mkstemp(path);
     assert_true(file >= 0);
     FILE *stream = fdopen(file, "w");
@@ -290,54 +196,123 @@ static bool accepts_text(const char *text, char why[GOLDEN_REASON])
     return accepted;
 }
 
-/* A file of all bands, the first `count` of them as `entry`. */
-static const char *file_of(char text[4096], const char *entry, int count, const char *extra)
+enum { TEXT_SIZE = 2048 };
+#define WHOLE "{\"kinetic\": [0, 1], \"box_low\": [[0, 1], [0, 1], [0, 1]]}"
+
+/* A file of three steps with these probes and these first and last frames. */
+static const char *file_of(char text[TEXT_SIZE], const char *probes, const char *first, const char *last)
 {
-    int length = snprintf(text, 4096, "{\"command\": \"c\", \"bands\": {");
-    for (int q = 0; q < QUANTITY_COUNT; q++) {
-        length += snprintf(text + length, 4096 - (size_t)length, "%s\"%s\": %s", q > 0 ? ", " : "", scene_quantity_name((scene_quantity)q),
-                           q < count ? entry : "{\"band\": [0, 1], \"comment\": \"\"}");
-    }
-    snprintf(text + length, 4096 - (size_t)length, "%s}}", extra);
+    snprintf(text, TEXT_SIZE, "{\"command\": \"c\", \"steps\": 3, \"probes\": %s, \"frames\": {\"1\": %s, \"2\": " WHOLE ", \"3\": %s}}", probes, first, last);
     return text;
 }
 
 static void test_broken_golden_files_are_rejected(void **state)
 {
     (void)state;
-    char why[GOLDEN_REASON], text[4096];
-    golden_bands bands;
-    assert_false(golden_read("tests/golden/none.json", "c", &bands, why));
-    assert_true(accepts_text(file_of(text, "", 0, ""), why));
-    assert_false(accepts_text("", why));
-    assert_false(accepts_text("{\"command\": \"c\", \"bands\": {}}", why));
-    assert_false(accepts_text("{\"command\": \"d\", \"bands\": {}}", why));
-    assert_false(accepts_text(file_of(text, "", 0, ", \"unheard of\": {\"band\": [0, 1], \"comment\": \"\"}"), why));
-    static const char *const entries[] = {
-        "{\"band\": [1, 0], \"comment\": \"\"}",     "{\"band\": [0], \"comment\": \"\"}",       "{\"band\": [0, 1]}",
-        "{\"band\": [\"0\", 1], \"comment\": \"\"}", "{\"band\": [0, 1, 2], \"comment\": \"\"}", "null",
+    static const char *const wrong_frames[][2] = {
+        {"{\"kinetic\": [1, 0], \"box_low\": [[0, 1], [0, 1], [0, 1]]}", "not 1 of"},
+        {"{\"kinetic\": [0], \"box_low\": [[0, 1], [0, 1], [0, 1]]}", "not 1 of"},
+        {"{\"kinetic\": [\"0\", 1], \"box_low\": [[0, 1], [0, 1], [0, 1]]}", "not 1 of"},
+        {"{\"kinetic\": [0, 1, 2], \"box_low\": [[0, 1], [0, 1], [0, 1]]}", "not 1 of"},
+        {"{\"kinetic\": null, \"box_low\": [[0, 1], [0, 1], [0, 1]]}", "not 1 of"},
+        {"{\"kinetic\": [0, 1], \"box_low\": [[0, 1], [0, 1]]}", "not 3 of"},
+        {"{\"kinetic\": [0, 1], \"box_low\": [[0, 1], [0, 1], [0, 1], [0, 1]]}", "not 3 of"},
+        {"{\"kinetic\": [0, 1]}", "lacks box_low"},
+        {"{\"kinetic\": [0, 1], \"box_low\": [[0, 1], [0, 1], [0, 1]], \"elastic\": [0, 1]}", "has elastic"},
+        {"{\"kinetic\": [0, 1], \"box_low\": [[0, 1], [0, 1], [0, 1]], \"unheard of\": [0, 1]}", "not known"},
+        {"null", "lacks"},
     };
-    for (size_t i = 0; i < sizeof entries / sizeof entries[0]; i++) {
-        assert_false(accepts_text(file_of(text, entries[i], 1, ""), why));
+    static const char *const wrong_files[][2] = {
+        {"", "expected"},
+        {"{\"command\": \"d\", \"steps\": 1, \"probes\": [0, 1, 2], \"frames\": {\"1\": " WHOLE "}}", "of another run"},
+        {"{\"steps\": 1, \"probes\": [0, 1, 2], \"frames\": {\"1\": " WHOLE "}}", "no command"},
+        {"{\"command\": \"c\", \"steps\": 1, \"probes\": [0, 1, 2], \"frames\": {}}", "has 0 frames"},
+        {"{\"command\": \"c\", \"steps\": 1, \"probes\": [0, 1, 2]}", "has 0 frames"},
+        {"{\"command\": \"c\", \"steps\": 2, \"probes\": [0, 1, 2], \"frames\": {\"1\": " WHOLE "}}", "lacks the last frame, 2"},
+        {"{\"command\": \"c\", \"steps\": 1, \"probes\": [0, 1, 2], \"frames\": {\"1\": " WHOLE ", \"2\": " WHOLE "}}", "none of steps 1 to 1"},
+        {"{\"command\": \"c\", \"steps\": 2, \"probes\": [0, 1, 2], \"frames\": {\"2\": " WHOLE ", \"1\": " WHOLE "}}", "lacks frame 1"},
+        {"{\"command\": \"c\", \"steps\": 3, \"probes\": [0, 1, 2], \"frames\": {\"1\": " WHOLE ", \"3\": " WHOLE "}}", "lacks frame 2"},
+        {"{\"command\": \"c\", \"steps\": 1, \"probes\": [0, 1, 2], \"frames\": {\"1\": " WHOLE ", \"1\": " WHOLE "}}", "duplicate"},
+        {"{\"command\": \"c\", \"steps\": 1, \"probes\": [0, 1, 2], \"frames\": {\"1x\": " WHOLE "}}", "none of steps"},
+    };
+    char why[GOLDEN_REASON], text[TEXT_SIZE];
+    golden bands;
+    const char *good = "[0, 1, 2]";
+    assert_false(golden_read("tests/golden/none.json", "c", &bands, why));
+    assert_true(accepts_text(file_of(text, good, WHOLE, WHOLE), why));
+    assert_false(accepts_text(file_of(text, "[0, 1]", WHOLE, WHOLE), why));
+    assert_false(accepts_text(file_of(text, "[0, 1, 2, 3]", WHOLE, WHOLE), why));
+    for (size_t i = 0; i < sizeof wrong_frames / sizeof wrong_frames[0]; i++) {
+        assert_false(accepts_text(file_of(text, good, WHOLE, wrong_frames[i][0]), why));
+        if (strstr(why, wrong_frames[i][1]) == NULL) {
+            fail_msg("%s: rejected with: %s", wrong_frames[i][0], why);
+        }
     }
+    for (size_t i = 0; i < sizeof wrong_files / sizeof wrong_files[0]; i++) {
+        assert_false(accepts_text(wrong_files[i][0], why));
+        if (strstr(why, wrong_files[i][1]) == NULL) {
+            fail_msg("%s: rejected with: %s", wrong_files[i][0], why);
+        }
+    }
+}
+
+/* A part without a program would leave its scenes out. */
+static void test_every_part_has_a_program(void **state)
+{
+    (void)state;
+    for (int part = 1; part <= GOLDEN_PARTS + 1; part++) {
+        char path[SCENE_PATH];
+        snprintf(path, sizeof path, "tests/scenes/test_golden_%d.c", part);
+        FILE *file = fopen(path, "r");
+        assert_int_equal(file != NULL, part <= GOLDEN_PARTS);
+        if (file != NULL) {
+            fclose(file);
+        }
+    }
+}
+
+/* What the first frame leaves out has to be 0 in a run. */
+static void test_what_a_file_leaves_out_has_to_be_zero(void **state)
+{
+    (void)state;
+    const golden bands = bands_of("free-fall");
+    scene_frame frame = middle_of(&bands, 0);
+    char why[GOLDEN_REASON];
+    assert_true(golden_accepts(&bands, 0, &frame, why));
+    frame.stitches[0] = 0x1p-1074;
+    assert_false(golden_accepts(&bands, 0, &frame, why));
+    assert_non_null(strstr(why, "stitches"));
 }
 
 /* ---- Claims ----------------------------------------------------------------------------------------------------------------- */
 
+/* Height of the centre of mass at the end, and the largest stretch at the end of any step. */
+typedef struct drape {
+    double height, stretch;
+} drape;
+
+static drape draped(const char *name)
+{
+    const scene_request request = request_of(name);
+    scene_outcome outcome = golden_run_or_fail(&request);
+    const drape d = {outcome.last.centre_of_mass[1], outcome.max_step_stretch};
+    print_message("%s: centre of mass at %.4f m, largest stretch at the end of a step %.4f\n", name, d.height, d.stretch);
+    scene_outcome_free(&outcome);
+    return d;
+}
+
 /* Claim C13: a stiff membrane on a coarse mesh keeps cloth from folding (locking), so it stays higher; a soft one drapes, but stretches far
- * beyond what cloth does; a soft one with a strain limit does neither. On the bands, which the runs above have to meet. */
+ * beyond what cloth does; a soft one with a strain limit does neither. */
 static void test_strain_limit_cures_membrane_locking(void **state)
 {
     (void)state;
-    const golden_bands stiff = bands_or_fail(variant_of("drape-membrane-1")), medium = bands_or_fail(variant_of("drape-membrane-0.1")),
-                       soft = bands_or_fail(variant_of("drape-membrane-0.01")),
-                       cured = bands_or_fail(variant_of("drape-membrane-0.01-limit-1.0608"));
-    const int height = QUANTITY_centre_of_mass_y, stretch = QUANTITY_largest_stretch;
-    assert_true(stiff.low[height] > medium.high[height] && medium.low[height] > soft.high[height]);
-    assert_true(stiff.high[stretch] < medium.low[stretch] && medium.high[stretch] < soft.low[stretch]);
-    assert_true(cured.high[height] < stiff.low[height]);    /* drapes, */
-    assert_true(cured.high[stretch] < medium.low[stretch]); /* and stretches no more than it may */
-    assert_true(soft.low[stretch] > 1.0608 && medium.low[stretch] > 1.0608); /* cotton's limit (docs/scene.md) */
+    const drape stiff = draped("drape-membrane-1"), medium = draped("drape-membrane-0.1"), soft = draped("drape-membrane-0.01"),
+                cured = draped("drape-membrane-0.01-limit-1.0608");
+    assert_true(stiff.height > medium.height && medium.height > soft.height);
+    assert_true(stiff.stretch < medium.stretch && medium.stretch < soft.stretch);
+    assert_true(cured.height < stiff.height);    /* drapes, */
+    assert_true(cured.stretch < medium.stretch); /* and stretches no more than it may */
+    assert_true(soft.stretch > 1.0608 && medium.stretch > 1.0608); /* cotton's limit (docs/scene.md) */
 }
 
 /* Claim C11, its threshold: on a slope of 0.3 rad a plate sticks or slides as mu is above or below tan 0.3, by one part in a hundred. */
@@ -350,8 +325,8 @@ static void test_friction_threshold(void **state)
         const double coefficient = tan(slope) * (1 + sign * part);
         snprintf(mu, sizeof mu, "friction.0.mu=%.17g", coefficient);
         const scene_request request = {.file = "tests/scenes/incline.json", .threads = 1, .overrides = {mu}};
-        scene_outcome outcome = run_or_fail(&request);
-        assert_monitored(&outcome);
+        scene_outcome outcome = golden_run_or_fail(&request);
+        golden_assert_monitored(&outcome);
         /* g (sin a - mu cos a) t with mu = tan a (1 - part) */
         const double sliding = g * sin(slope) * part * outcome.time_step * outcome.steps;
         print_message("mu %.6f: after %d steps %.6g m/s; sliding would be %.6g m/s\n", coefficient, outcome.steps, outcome.speed, sliding);
@@ -381,79 +356,35 @@ static void test_smaller_time_steps_keep_every_invariant(void **state)
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         const scene_request request = {.file = "tests/scenes/drape.json", .threads = 1,
                                        .overrides = {sizes[i][0], sizes[i][1], "bodies.cloth.shell.irregular.nodes=150"}};
-        scene_outcome outcome = run_or_fail(&request);
-        assert_monitored(&outcome);
-        print_figures(sizes[i][0], &outcome);
+        scene_outcome outcome = golden_run_or_fail(&request);
+        golden_assert_monitored(&outcome);
+        golden_print_figures(sizes[i][0], &outcome);
         assert_true(outcome.max_contacts > 0 && outcome.max_friction > 0);
-        assert_true(outcome.quantity[QUANTITY_lowest_node] < -0.158); /* on the ground, which is at -0.16 */
+        assert_true(outcome.last.box_low[1] < -0.158); /* on the ground, which is at -0.16 */
         scene_outcome_free(&outcome);
     }
-}
-
-/* ---- Making the golden files ------------------------------------------------------------------------------------------------ */
-
-/* The runs of the rule: as it is, with a tolerance ten times tighter, and with starts displaced by up to a micrometre. */
-enum { GOLDEN_RUNS = 8 };
-static const double tighter = 0.1, golden_jitter = 1e-6;
-
-static bool regenerate(const variant *v)
-{
-    double quantity[GOLDEN_RUNS][QUANTITY_COUNT];
-    golden_scale scale = {0, 0, 0};
-    for (int r = 0; r < GOLDEN_RUNS; r++) {
-        scene_request request = v->request;
-        scene_outcome outcome;
-        cipc_error error;
-        request.tolerance_factor = r == 1 ? tighter : 1;
-        request.jitter = r > 1 ? golden_jitter : 0;
-        request.jitter_seed = (unsigned long)r;
-        if (scene_run(&request, &outcome, &error) != CIPC_OK) {
-            fprintf(stderr, "%s, run %d: %s: %s\n", v->name, r, error.place, error.what);
-            scene_outcome_free(&outcome);
-            return false;
-        }
-        memcpy(quantity[r], outcome.quantity, sizeof quantity[r]);
-        if (r == 0) {
-            scale = (golden_scale){outcome.time_step, outcome.tolerance, outcome.moving_mass};
-        }
-        scene_outcome_free(&outcome);
-    }
-    char path[PATH_SIZE], command[COMMAND_SIZE], why[GOLDEN_REASON];
-    golden_path(v, path);
-    command_of(v, command);
-    const bool good = golden_write(path, command, GOLDEN_RUNS, (const double (*)[QUANTITY_COUNT])quantity, scale, why);
-    fprintf(stderr, "%s\n", good ? path : why);
-    return good;
-}
-
-static int regenerate_named(int count, char **names)
-{
-    bool good = true;
-    for (int i = 0; i < VARIANTS; i++) {
-        bool wanted = count == 0;
-        for (int k = 0; k < count; k++) {
-            wanted = wanted || strcmp(names[k], variants[i].name) == 0;
-        }
-        good = (!wanted || regenerate(&variants[i])) && good;
-    }
-    return good ? 0 : 1;
 }
 
 int main(int argc, char **argv)
 {
-    if (argc > 1 && strcmp(argv[1], "--regenerate") == 0) {
-        return regenerate_named(argc - 2, argv + 2);
+    if (argc == 2 && strcmp(argv[1], "--list") == 0) {
+        for (int i = 0; i < scene_variant_count; i++) {
+            puts(scene_variants[i].name);
+        }
+        return 0;
     }
-    struct CMUnitTest scenes[VARIANTS];
-    for (int i = 0; i < VARIANTS; i++) {
-        scenes[i] = (struct CMUnitTest){variants[i].name, test_variant, NULL, NULL, (void *)(uintptr_t)&variants[i]};
+    if (argc == 6 && strcmp(argv[1], "--record") == 0) {
+        const scene_variant *variant = scene_variant_of(argv[2]);
+        return variant != NULL && scene_record(variant, atoi(argv[3]), strtod(argv[4], NULL), strtoul(argv[5], NULL, 10)) ? 0 : 1;
     }
     const struct CMUnitTest checks[] = {
         cmocka_unit_test(test_threads_change_nothing),
         cmocka_unit_test(test_threads_change_nothing_in_larger_systems),
         cmocka_unit_test(test_comparison_of_threads_sees_one_ulp),
         cmocka_unit_test(test_values_outside_a_band_are_rejected),
-        cmocka_unit_test(test_wrong_physics_is_rejected),
+        cmocka_unit_test(test_runs_of_another_shape_are_rejected),
+        cmocka_unit_test(test_every_part_has_a_program),
+        cmocka_unit_test(test_what_a_file_leaves_out_has_to_be_zero),
         cmocka_unit_test(test_bands_tell_variants_apart),
         cmocka_unit_test(test_broken_golden_files_are_rejected),
     };
@@ -462,6 +393,5 @@ int main(int argc, char **argv)
         cmocka_unit_test(test_friction_threshold),
         cmocka_unit_test(test_smaller_time_steps_keep_every_invariant),
     };
-    return cmocka_run_group_tests_name("scenes", scenes, NULL, NULL) + cmocka_run_group_tests_name("checks", checks, NULL, NULL) +
-           cmocka_run_group_tests_name("claims", claims, NULL, NULL);
+    return cmocka_run_group_tests_name("checks", checks, NULL, NULL) + cmocka_run_group_tests_name("claims", claims, NULL, NULL);
 }

@@ -7,26 +7,6 @@
 
 #include "cipc/invariant.h"
 
-const char *scene_quantity_name(scene_quantity quantity)
-{
-    static const char *const names[] = {
-#define X(name, unit, what) #name,
-        SCENE_QUANTITIES(X)
-#undef X
-    };
-    return names[quantity];
-}
-
-const char *scene_quantity_unit(scene_quantity quantity)
-{
-    static const char *const units[] = {
-#define X(name, unit, what) unit,
-        SCENE_QUANTITIES(X)
-#undef X
-    };
-    return units[quantity];
-}
-
 void scene_outcome_free(scene_outcome *outcome)
 {
     cipc_free(outcome->position);
@@ -41,7 +21,8 @@ typedef struct run {
     cipc_stepper *stepper;
     scene_outcome *outcome;
     long points_of_step;
-    double stretch_now;   /* at the last accepted point */
+    cipc_invariant_report seen; /* at the last accepted point */
+    bool stopped;         /* the watcher has seen enough */
     double *previous;     /* the point accepted before: where the next path begins */
 } run;
 
@@ -61,7 +42,7 @@ static void take_in(run *r, const cipc_invariant_report *report)
     scene_outcome *o = r->outcome;
     o->points++;
     r->points_of_step++;
-    r->stretch_now = report->max_stretch;
+    r->seen = *report;
     o->min_gap = fmin(o->min_gap, report->min_gap);
     o->max_stretch = fmax(o->max_stretch, report->max_stretch);
     o->max_stretch_ratio = fmax(o->max_stretch_ratio, report->max_stretch_ratio);
@@ -98,11 +79,6 @@ static cipc_status look(void *context, const cipc_accepted_point *point, cipc_er
 
 /* ---- The start -------------------------------------------------------------------------------------------------------------- */
 
-static bool moves_by_itself(const cipc_model *model, int node)
-{
-    return !model->bodies[model->node_body[node]].fixed;
-}
-
 /* A number in [-1, 1) from a linear congruential generator (Knuth's MMIX constants): the same on every machine. */
 static double draw(unsigned long long *state)
 {
@@ -110,21 +86,28 @@ static double draw(unsigned long long *state)
     return (double)(*state >> 11) * 0x1p-52 - 1;
 }
 
-static void disturb(cipc_scene *scene, double jitter, unsigned long seed)
+/* Choose the probes, and displace the nodes that are free during the first step. */
+static cipc_status prepare_nodes(run *r, double jitter, unsigned long seed, cipc_error *error)
 {
-    const cipc_model *m = scene->model;
+    const cipc_model *m = r->scene->model;
+    cipc_state *state = r->scene->state;
+    cipc_status status = CIPC_OK;
     bool *held = cipc_alloc((size_t)m->node_count, sizeof *held);
     double *target = cipc_alloc(3 * (size_t)m->node_count, sizeof *target);
     if (held != NULL && target != NULL) {
-        cipc_dirichlet_targets(m, scene->state->position, 0, scene->options.time_step, held, target, NULL);
+        cipc_dirichlet_targets(m, state->position, 0, r->scene->options.time_step, held, target, NULL);
+        scene_probes(m, held, r->outcome->probe);
         unsigned long long generator = seed;
         for (int i = 0; i < 3 * m->node_count; i++) {
             const double offset = jitter * draw(&generator);
-            scene->state->position[i] += held[i / 3] ? 0 : offset;
+            state->position[i] += held[i / 3] ? 0 : offset;
         }
+    } else {
+        status = cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "scene_run", "no memory for %d nodes", m->node_count);
     }
     cipc_free(held);
     cipc_free(target);
+    return status;
 }
 
 static cipc_status open_run(run *r, const scene_request *request, cipc_error *error)
@@ -140,7 +123,10 @@ static cipc_status open_run(run *r, const scene_request *request, cipc_error *er
     cipc_scene *scene = r->scene;
     scene->options.threads = request->threads;
     scene->options.newton_tolerance *= request->tolerance_factor > 0 ? request->tolerance_factor : 1;
-    disturb(scene, request->jitter, request->jitter_seed);
+    status = prepare_nodes(r, request->jitter, request->jitter_seed, error);
+    if (status != CIPC_OK) {
+        return status;
+    }
     cipc_invariant_options options = cipc_invariant_options_default();
     options.reach = scene->monitor_reach;
     options.threads = request->threads;
@@ -160,11 +146,24 @@ static cipc_status open_run(run *r, const scene_request *request, cipc_error *er
 
 /* ---- The steps -------------------------------------------------------------------------------------------------------------- */
 
-static cipc_status take_step(run *r, cipc_error *error)
+/* What a good step left. */
+static void record_step(run *r, const cipc_step_report *report, const scene_request *request)
+{
+    scene_outcome *o = r->outcome;
+    const cipc_scene *scene = r->scene;
+    const scene_step step = {scene->model, scene->state->position, o->probe, report, &r->seen, scene->monitor_reach, o->last.newton_iterations[0]};
+    o->last = scene_frame_of(&step);
+    o->steps = scene->state->step;
+    o->max_step_stretch = fmax(o->max_step_stretch, r->seen.max_stretch);
+    o->max_contacts = report->max_contacts > o->max_contacts ? report->max_contacts : o->max_contacts;
+    o->max_friction = fmax(o->max_friction, report->incremental.friction);
+    r->stopped = request->watch != NULL && !request->watch(request->context, o->steps, &o->last);
+}
+
+static cipc_status take_step(run *r, const scene_request *request, cipc_error *error)
 {
     cipc_step_report report;
     cipc_state *state = r->scene->state;
-    scene_outcome *o = r->outcome;
     r->points_of_step = 0;
     memcpy(r->previous, state->position, 3 * (size_t)r->scene->model->node_count * sizeof *r->previous);
     cipc_status status = cipc_step(r->stepper, state, &report, error);
@@ -178,14 +177,9 @@ static cipc_status take_step(run *r, cipc_error *error)
     if (status == CIPC_OK && !report.converged) {
         status = cipc_fail(error, CIPC_E_NOT_CONVERGED, "scene_run", "step %d ended well, yet is not reported as converged", state->step);
     }
-    o->quantity[QUANTITY_newton_iterations] += report.newton_iterations;
-    o->quantity[QUANTITY_contacts] = report.contacts;
-    o->quantity[QUANTITY_elastic_energy] = report.elastic;
-    o->quantity[QUANTITY_energy] = report.kinetic + report.gravitational + report.elastic;
-    o->quantity[QUANTITY_largest_stretch] = fmax(o->quantity[QUANTITY_largest_stretch], r->stretch_now);
-    o->max_contacts = report.max_contacts > o->max_contacts ? report.max_contacts : o->max_contacts;
-    o->max_friction = fmax(o->max_friction, report.incremental.friction);
-    o->steps = state->step;
+    if (status == CIPC_OK) {
+        record_step(r, &report, request);
+    }
     return status;
 }
 
@@ -193,7 +187,7 @@ static void centre_of_mass(const cipc_model *model, const double *x, double cent
 {
     *mass = centre[0] = centre[1] = centre[2] = 0;
     for (int i = 0; i < model->node_count; i++) {
-        if (moves_by_itself(model, i)) {
+        if (scene_node_moves(model, i)) {
             *mass += model->mass[i];
             for (int k = 0; k < 3; k++) {
                 centre[k] += model->mass[i] * x[3 * i + k];
@@ -228,15 +222,6 @@ static cipc_status finish_outcome(const run *r, const double start[3], cipc_erro
     centre_of_mass(m, state->velocity, drift, &o->moving_mass);
     o->travel = hypot(hypot(end[0] - start[0], end[1] - start[1]), end[2] - start[2]);
     o->speed = hypot(hypot(drift[0], drift[1]), drift[2]);
-    memcpy(o->quantity + QUANTITY_centre_of_mass_x, end, sizeof end);
-    o->quantity[QUANTITY_lowest_node] = INFINITY;
-    o->quantity[QUANTITY_highest_node] = -INFINITY;
-    for (int i = 0; i < m->node_count; i++) {
-        if (moves_by_itself(m, i)) {
-            o->quantity[QUANTITY_lowest_node] = fmin(o->quantity[QUANTITY_lowest_node], state->position[3 * i + 1]);
-            o->quantity[QUANTITY_highest_node] = fmax(o->quantity[QUANTITY_highest_node], state->position[3 * i + 1]);
-        }
-    }
     const size_t size = 3 * (size_t)m->node_count;
     o->node_count = m->node_count;
     o->position = cipc_alloc(size, sizeof(double));
@@ -260,8 +245,8 @@ cipc_status scene_run(const scene_request *request, scene_outcome *outcome, cipc
         centre_of_mass(r.scene->model, r.scene->state->position, start, &outcome->moving_mass);
         cipc_stepper_set_monitor(r.stepper, look, &r);
     }
-    while (status == CIPC_OK && r.scene->state->step < r.scene->steps) {
-        status = take_step(&r, error);
+    while (status == CIPC_OK && !r.stopped && r.scene->state->step < r.scene->steps) {
+        status = take_step(&r, request, error);
     }
     if (status == CIPC_OK) {
         status = finish_outcome(&r, start, error);

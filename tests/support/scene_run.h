@@ -1,9 +1,10 @@
 /* A scene of tests/scenes run through the library as `cipc run` does it: every accepted point goes to the monitors, every step has to
- * converge. What comes out is what the golden bands (golden_bands.h) and the claims are about. */
+ * converge. What comes out is what the golden bands (golden.h) and the claims are about. */
 #ifndef SUPPORT_SCENE_RUN_H
 #define SUPPORT_SCENE_RUN_H
 
 #include "cipc/scene.h"
+#include "support/scene_frame.h"
 
 /* Which run: scene file, overrides as after --set (NULL-terminated, at most SCENE_RUN_OVERRIDES), and how it is disturbed. */
 enum { SCENE_RUN_OVERRIDES = 8 };
@@ -14,35 +15,19 @@ typedef struct scene_request {
     double tolerance_factor;           /* multiplies newton.tolerance; 0 means 1 */
     double jitter;                     /* m: every free node starts up to this far from its place in x, y and z; 0: none */
     unsigned long jitter_seed;
+    /* Called after every step (from 1) with what it left; false: the run ends there, without being a failure. NULL: to the last step. */
+    bool (*watch)(void *context, int step, const scene_frame *frame);
+    void *context;
 } scene_request;
 
-/* The quantities that are held against golden bands, of the nodes of bodies that are not fixed: X(name, unit, what it is). */
-#define SCENE_QUANTITIES(X)                                                                                                       \
-    X(centre_of_mass_x, "m", "centre of mass at the end")                                                                         \
-    X(centre_of_mass_y, "m", "centre of mass at the end")                                                                         \
-    X(centre_of_mass_z, "m", "centre of mass at the end")                                                                         \
-    X(lowest_node, "m", "smallest y at the end")                                                                                  \
-    X(highest_node, "m", "largest y at the end")                                                                                  \
-    X(energy, "J", "kinetic + gravitational + elastic at the end")                                                                \
-    X(elastic_energy, "J", "at the end")                                                                                          \
-    X(largest_stretch, "1", "largest principal stretch at the end of any step")                                                   \
-    X(contacts, "1", "active stencils at the end")                                                                                \
-    X(newton_iterations, "1", "in all steps together")
-typedef enum scene_quantity {
-#define X(name, unit, what) QUANTITY_##name,
-    SCENE_QUANTITIES(X)
-#undef X
-    QUANTITY_COUNT
-} scene_quantity;
-const char *scene_quantity_name(scene_quantity quantity);
-const char *scene_quantity_unit(scene_quantity quantity);
-
 typedef struct scene_outcome {
-    double quantity[QUANTITY_COUNT];
+    scene_frame last;                  /* after the last step */
+    int probe[SCENE_PROBES];           /* the probes' nodes */
     int steps;                         /* taken, all converged */
     long points, energy_checks;        /* accepted points that the monitors looked at; those with comparable energies */
     double min_gap;                    /* m: d - xi, smallest at any accepted point; INFINITY: nothing came within reach */
     double max_stretch, max_stretch_ratio; /* at any accepted point */
+    double max_step_stretch;           /* largest principal stretch after any step */
     long exact_gap_checks, exact_strain_checks;
     long paths_checked, exact_path_checks; /* M5 */
     int max_contacts;
