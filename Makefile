@@ -56,7 +56,7 @@ TEST_SUPPORT := $(BUILD)/obj/libsupport.a
 TESTS := $(patsubst %.c,$(BUILD)/%,$(TEST_SOURCES))
 
 # ---- Targets for people -----------------------------------------------------------------------------------------------------
-.PHONY: help all deps deps-all demo check verify validation golden mutants coverage sanitize valgrind lint bench format install uninstall clean
+.PHONY: help all deps deps-all demo check verify validation claims golden mutants nightly coverage sanitize valgrind lint bench format install uninstall clean
 .DEFAULT_GOAL := all
 
 # A plain `make check` uses every core; an explicit -j is respected.
@@ -95,12 +95,19 @@ verify: ## the functions of the solver against exact and MPFR arithmetic: a larg
 	$(BUILD)/cipc verify all --samples $(SAMPLES) --seed $(SEED) --threads $(shell nproc 2>/dev/null || echo 1) --json $(BUILD)/verify.json \
 	    --worst $(BUILD)/verify-worst.jsonl $(if $(PUBLIC_QUERIES),--data $(PUBLIC_QUERIES))
 
-VALIDATION_TESTS := plane rods shells volumes hertz locking splitting stack
+VALIDATION_PAGE   ?= docs/validation.md
+VALIDATION_IMAGES ?= docs/images
+VALIDATION_TESTS  := plane rods shells volumes hertz locking splitting stack
 validation: ## physics against closed forms: run their tests, write the table and the plots of docs/validation.md
 	$(SUBMAKE) all $(VALIDATION_TESTS:%=$(BUILD)/tests/scenes/test_%)
 	@rm -f $(BUILD)/validation.tsv
 	@for t in $(VALIDATION_TESTS); do CIPC_VALIDATION=$(BUILD)/validation.tsv $(BUILD)/tests/scenes/test_$$t >/dev/null 2>$(BUILD)/validation.log || { cat $(BUILD)/validation.log; exit 1; }; done
-	@ci/validation $(BUILD)/validation.tsv docs/validation.md docs/images
+	@ci/validation $(BUILD)/validation.tsv $(VALIDATION_PAGE) $(VALIDATION_IMAGES)
+
+SIZE ?= ci
+claims: ## run what shows the papers' claims (SIZE=ci; desk and paper take hours), write docs/claims.md, build/claims.json, build/claims.xml
+	$(SUBMAKE) all $$(ci/claims --programs --build $(BUILD))
+	@ci/claims --build $(BUILD) --size $(SIZE)
 
 golden: ## make the golden files anew: SCENES="a b" or all; prints what changed, refuses where an invariant fails (tests/golden/README.md)
 	$(SUBMAKE) all $(BUILD)/tests/scenes/test_scenes
@@ -109,6 +116,9 @@ golden: ## make the golden files anew: SCENES="a b" or all; prints what changed,
 mutants: ## plant every fault of ci/mutants.list and see the named check reject it; docs/mutants.md
 	$(SUBMAKE) all tests
 	@ci/mutants --build $(BUILD)
+
+nightly: ## the long stages one after another: validation, a large verification, the scenes at size desk, claims, all mutants; hours
+	@ci/nightly --build $(BUILD)
 
 COVERAGE_FLAGS := --coverage -fprofile-update=atomic
 coverage: ## line coverage per folder of src/; fails below 95 % in geometry, energy, contact and implicit (build/coverage)
@@ -190,7 +200,8 @@ tests: $(TESTS)
 CHECKS := 'ci/check-layers' 'ci/check-layers --self-test' 'ci/check-symbols $(BUILD)' 'ci/check-symbols --self-test' \
     $(if $(PROGRAM),'ci/check-docs $(BUILD)') 'ci/check-docs --self-test' 'ci/check-install $(BUILD)' 'ci/run-tests --self-test' \
     'tests/conformance/check $(BUILD)' 'tests/conformance/check-verify $(BUILD)' 'ci/mutants --self-test' 'ci/mutants --fast --build $(BUILD)' \
-    'ci/check-gappa' 'ci/check-gappa --self-test' 'ci/validation --self-test' 'ci/golden --self-test'
+    'ci/check-gappa' 'ci/check-gappa --self-test' 'ci/validation --self-test' 'ci/golden --self-test' 'ci/scene-costs --self-test' \
+    $(if $(PROGRAM),'ci/claims --check --build $(BUILD)') 'ci/claims --self-test' 'ci/nightly --self-test'
 
 verdict: all tests
 	@CIPC=$(BUILD)/cipc ci/run-tests $(BUILD)/tests $(CHECKS) $(TESTS)

@@ -74,7 +74,8 @@ cipc_status cipc_contact_set_build(cipc_contact_set *set, const cipc_model *mode
 typedef enum cipc_ccd_method {
     CIPC_CCD_CERTIFIED = 0, /* additive CCD, conservative in double arithmetic by construction, MPFR where doubles do not suffice (SPEC V.4) */
     CIPC_CCD_ADDITIVE,      /* additive CCD as in the paper (SPEC C.5, Algorithm 1): the readable form, not conservative under rounding */
-    CIPC_CCD_CUBIC          /* roots of the coplanarity cubic in floating point (GSL): the baseline that the paper shows failing; ignores thickness */
+    CIPC_CCD_CUBIC,         /* roots of the coplanarity cubic in floating point (GSL): the baseline that the paper shows failing; ignores thickness */
+    CIPC_CCD_MINIMUM_SEPARATION /* floating-point roots with a minimum separation, by the conservative strategy of the IPC codes: the baseline with thickness */
 } cipc_ccd_method;
 typedef struct cipc_ccd_options {
     cipc_ccd_method method;
@@ -104,8 +105,15 @@ cipc_ccd_result cipc_additive_ccd(cipc_pair_kind kind, const double *x, const do
 /* For every path: exact distance > thickness on all of [0, toi] (unless initially close), toi > 0 unless initially close (docs/theory/certified_ccd.md). */
 cipc_ccd_result cipc_certified_ccd(const cipc_stencil_path *path, double thickness, double t_max, const cipc_ccd_options *options);
 cipc_ccd_result cipc_cubic_ccd(const cipc_stencil_path *path, double thickness, double t_max, const cipc_ccd_options *options);
+/* docs/theory/minimum_separation_ccd.md: nothing is promised. iterations: how often roots were looked for. */
+cipc_ccd_result cipc_minimum_separation_ccd(const cipc_stencil_path *path, double thickness, double t_max, const cipc_ccd_options *options);
 /* By options->method. */
 cipc_ccd_result cipc_ccd(const cipc_stencil_path *path, double thickness, double t_max, const cipc_ccd_options *options);
+
+/* What cipc_candidates_ccd asks of the i-th candidate on the path x + t p, t in [0, t_max]: the path of its stencil (displacements as in p, not cut at t_max) and its
+ * thickness. False: nothing, because the boxes of the two paths stay apart by more than that. */
+bool cipc_candidates_query(const cipc_model *model, const cipc_candidates *candidates, long index, const double *x, const double *p, double t_max,
+                           const cipc_ccd_options *options, cipc_stencil_path *path, double *thickness);
 
 /* The smallest step of cipc_ccd over all candidates on the path x + t p, t in [0, t_max]; the limiting stencil's nodes and kind in
  * *nodes and *kind (may be NULL; nodes -1 if nothing limits). Thickness is each pair's xi. */

@@ -91,6 +91,19 @@ cipc_status cipc_stepper_create(cipc_stepper **stepper, const cipc_model *model,
 void cipc_stepper_destroy(cipc_stepper *stepper);
 void cipc_stepper_set_monitor(cipc_stepper *stepper, cipc_monitor_callback *callback, void *context);
 
+/* A search for the part of a path x + t p, t in [0, t_max], that meets no contact: of a line search, or of scripted motion. What is asked of each candidate is told by
+ * cipc_candidates_query. */
+typedef struct cipc_ccd_search {
+    const cipc_candidates *candidates; /* in an order that does not depend on the number of threads */
+    const double *x, *p;               /* 3 * node_count each */
+    double t_max;
+    int step;                          /* the time step under way, from 0 */
+    const cipc_ccd_options *options;
+} cipc_ccd_search;
+/* Called before each search, from one thread; what the search holds is valid during the call only. It changes nothing and cannot fail. */
+typedef void cipc_ccd_watch(void *context, const cipc_ccd_search *search);
+void cipc_stepper_set_ccd_watch(cipc_stepper *stepper, cipc_ccd_watch *watch, void *context);
+
 /* Advance state by one time step. CIPC_OK: converged. CIPC_E_NOT_CONVERGED / _NO_PROGRESS / ...: *state holds the last accepted point (never
  * intersecting), state->step and time are not advanced; error names the step, the residual and the limiting pair. */
 cipc_status cipc_step(cipc_stepper *stepper, cipc_state *state, cipc_step_report *report, cipc_error *error);

@@ -125,9 +125,30 @@ const char *cipc_run_summary_verdict(const cipc_run_summary *summary, int invari
 /* summary.json, written atomically. */
 cipc_status cipc_summary_write(const char *path, const cipc_run_summary *summary, cipc_error *error);
 
+/* The same verdicts as JUnit XML, written atomically: a case for the steps and one for each of M1..M8; failures with place and remedy, those not checked with the
+ * reason. */
+cipc_status cipc_summary_junit(const char *path, const cipc_run_summary *summary, cipc_error *error);
+
 /* Cut stats.jsonl after the line of `step` (atomically) and add what the lines kept say to *summary, so that the summary of a resumed run
  * is that of the whole run. CIPC_E_NOT_RESUMABLE if a line is missing; a broken last line is one beyond the cut. */
 cipc_status cipc_stats_resume(const char *path, int step, cipc_run_summary *summary, cipc_error *error);
+
+/* ---- Recorded CCD queries ------------------------------------------------------------------------------------------------- */
+
+/* A sample of what a run asks of continuous collision detection, as queries of the conformance protocol (docs/formats.md, docs/conformance.md). Every query has an
+ * ordinal, by which it is kept or not: all of them as long as `limit` suffices, then half, a quarter and so on, spread over the whole run. So the sample depends neither
+ * on the number of threads nor on anything random. */
+typedef struct cipc_ccd_record cipc_ccd_record;
+/* Reserves memory for limit >= 1 queries (some 220 bytes each) and path.partial. CIPC_E_IO: the path is a folder, or cannot be written to; CIPC_E_OUT_OF_MEMORY. The
+ * model must outlive the record. */
+cipc_status cipc_ccd_record_open(cipc_ccd_record **record, const char *path, const cipc_model *model, long limit, cipc_error *error);
+/* A cipc_ccd_watch; context is the record. */
+void cipc_ccd_record_search(void *context, const cipc_ccd_search *search);
+long cipc_ccd_record_count(const cipc_ccd_record *record);
+/* Write the file, atomically, and free. NULL is fine. */
+cipc_status cipc_ccd_record_close(cipc_ccd_record *record, cipc_error *error);
+/* Free without writing anything; an older file of that name stays. NULL is fine. */
+void cipc_ccd_record_discard(cipc_ccd_record *record);
 
 /* Progress line on a terminal: step, simulated time, Newton iterations, contacts, minimum gap, largest stretch, time left. */
 void cipc_progress_line(FILE *terminal, int step, int steps, double time, int newton_iterations, int contacts, double min_gap,
@@ -142,6 +163,7 @@ void cipc_progress_clear(FILE *terminal);
 typedef struct cipc_picture_options {
     int columns, rows, tile_width, tile_height; /* tiles; pixels */
     double azimuth, elevation, zoom;
+    const bool *subject;                        /* of each body: is the picture about it? NULL: about those that move */
 } cipc_picture_options;
 cipc_picture_options cipc_picture_options_default(void);
 cipc_status cipc_frames_png(const char *path, const char *trajectory_path, const cipc_model *model, const cipc_picture_options *options,

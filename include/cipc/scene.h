@@ -19,6 +19,8 @@ typedef struct cipc_mesh {
     int (*segments)[2];
     int tetrahedron_count;
     int (*tetrahedra)[4];      /* positive volume */
+    double *pattern;           /* of garments and ribbons: the same nodes cut flat in the x-z plane, 3 * node_count, m; NULL: there is none */
+    int panel_count, panel_columns, panel_rows; /* of garments: panels of columns * rows nodes each, row by row from the top, left to right; 0: none */
 } cipc_mesh;
 void cipc_mesh_free(cipc_mesh *mesh);
 
@@ -38,6 +40,39 @@ cipc_status cipc_mesh_revolution(cipc_mesh *mesh, int count, const double (*prof
 /* Open cylinder about x, from -length/2 to length/2, of near-equilateral triangles: `around` nodes a ring, rings staggered, `along` + 1 rings. */
 cipc_status cipc_mesh_cylinder(cipc_mesh *mesh, double radius, double length, int around, int along, cipc_error *error);
 
+/* Capsule about y: balls of radii[0] and radii[1] around (0, -length/2, 0) and (0, length/2, 0) and the cone that touches both; `along` equal steps
+ * from pole to pole, `around` nodes a ring. */
+cipc_status cipc_mesh_capsule(cipc_mesh *mesh, const double radii[2], double length, int around, int along, cipc_error *error);
+
+/* A ring of panels around y, of a skirt or a bodice: radius `top` at y = 0, `bottom` at y = -height, m; `down` rows of cells. The panels have nodes
+ * of their own along the seams. */
+typedef struct cipc_panel_ring {
+    int panels, down;
+    double top, bottom, height;
+} cipc_panel_ring;
+/* Gores: pieces of a cone, `across` cells each. The first begins at +x; then towards -z. Has a pattern. */
+cipc_status cipc_mesh_gores(cipc_mesh *mesh, const cipc_panel_ring *ring, int across, cipc_error *error);
+/* Knife pleats: `count` of them around, folded under by `depth`, layers a gap apart, both in m at the top, where `ring.top` is the mean radius; cells
+ * across the way forward and the way back, and one at each fold. Has a pattern. OUT_OF_RANGE too if there is no room for the pleats, or if the columns
+ * are so wide that layers come nearer than half the gap. */
+typedef struct cipc_pleating {
+    int count, forward, back;
+    double depth, gap;
+} cipc_pleating;
+cipc_status cipc_mesh_pleats(cipc_mesh *mesh, const cipc_panel_ring *ring, const cipc_pleating *pleats, cipc_error *error);
+/* Ribbon of a width along a smooth curve through `count` >= 2 points (natural cubic splines over the lengths of the chords), `along` x `across` cells cut along alternating
+ * diagonals. Cross-sections lie at equal lengths of the curve; node i (across + 1) + j is j-th of section i, from -width/2 to width/2 along tangent x normal; triangles are turned
+ * towards the normal. The pattern is a rectangle around the origin, along x as long as the chords between sections together. OUT_OF_RANGE if the curve runs along its normal or bends so sharply that an element has no size or is turned over. */
+typedef struct cipc_ribbon {
+    int count;
+    const double (*points)[3];  /* m */
+    const double (*normals)[3]; /* one for each point, of any length, interpolated as the points are; NULL: the first section's normal is carried along with the least rotation */
+    double normal[3];           /* of the first section; not read if `normals` are given */
+    double width;               /* m */
+    int along, across;
+} cipc_ribbon;
+cipc_status cipc_mesh_ribbon(cipc_mesh *mesh, const cipc_ribbon *ribbon, cipc_error *error);
+
 /* Rods. A polyline through `count` points, each stretch divided into `segments` equal segments; closed joins the last to the first. */
 cipc_status cipc_mesh_polyline(cipc_mesh *mesh, int count, const double (*points)[3], int segments, bool closed, cipc_error *error);
 /* Arc in the x-y plane about the origin from angle 0 at (radius, 0, 0), anticlockwise; angle 2 pi: a closed ring. */
@@ -45,6 +80,8 @@ cipc_status cipc_mesh_arc(cipc_mesh *mesh, double radius, double angle, int segm
 /* count[0] x count[1] x count[2] straight vertical (y) rods of a length, centred, `spacing` from axis to axis in x and z and from middle to middle in y; `round`: of each layer only
  * those within the inscribed ellipse. Nodes rod by rod from below, x fastest, then z, then y. */
 cipc_status cipc_mesh_rods(cipc_mesh *mesh, const int count[3], const double spacing[3], double length, int segments, bool round, cipc_error *error);
+/* Hair: every rod of such a mesh (rods of `segments`, `length` long) loses up to `shorten` < length at its lower end, at random (seeded). */
+cipc_status cipc_mesh_shorten_rods(cipc_mesh *mesh, double length, int segments, double shorten, unsigned long seed, cipc_error *error);
 /* Interwoven net of n + n rods along x and z, extent `size`, `segments` each; where two cross one is `lift` above and the other below, alternately. segments >= 2 n. */
 cipc_status cipc_mesh_net(cipc_mesh *mesh, double size, int n, int segments, double lift, cipc_error *error);
 
@@ -55,6 +92,18 @@ cipc_status cipc_mesh_lattice(cipc_mesh *mesh, const int count[3], const double 
 cipc_status cipc_mesh_box(cipc_mesh *mesh, const double size[3], const int cells[3], cipc_error *error);
 cipc_status cipc_mesh_ball(cipc_mesh *mesh, double radius, int cells, cipc_error *error);
 cipc_status cipc_mesh_solid_cylinder(cipc_mesh *mesh, double radius, double length, int cells_across, int cells_along, cipc_error *error);
+/* Solid of revolution about +y: the section is a lattice of `rows` x `columns` points (radius >= 0, height), row by row, its cells convex and all turned the same way; `sectors` >= 3 around.
+ * Points on the axis are single nodes. Nodes: point by point, each around from +x towards -z. */
+cipc_status cipc_mesh_solid_revolution(cipc_mesh *mesh, int rows, int columns, const double (*points)[2], int sectors, cipc_error *error);
+
+/* A ball swept along a segment, its radius growing or shrinking evenly on the way; begin = end: a ball. */
+typedef struct cipc_capsule {
+    double begin[3], end[3]; /* m */
+    double radius[2];        /* m, > 0, at begin and end */
+} cipc_capsule;
+/* The union of capsules, figures for instance, filled with tetrahedra of a body-centred lattice of `cell` m; the surface's nodes lie on the capsules. `blend` (m, >= 0) rounds off the
+ * corners where parts meet. In one piece: OUT_OF_RANGE if parts do not meet or are thinner than the cells resolve. */
+cipc_status cipc_mesh_capsules(cipc_mesh *mesh, int count, const cipc_capsule *parts, double blend, double cell, cipc_error *error);
 
 /* By the file's ending: .obj (surface; with l lines only: segments; with v lines only: particles), .seg (segments, as OBJ lines), .msh (Gmsh ASCII 2.2 and 4.1), .vtk (legacy ASCII unstructured grid or
  * polydata). Elements of the wanted kind must be there; the nodes that they do not use are left out (particles: all nodes). */
@@ -73,6 +122,7 @@ typedef struct cipc_scene {
     double monitor_reach;                /* m */
     bool write_obj;
     double camera_azimuth, camera_elevation, camera_zoom;   /* of frames.png; degrees are never implied: radians */
+    bool *camera_subject;                /* of each body, or NULL: does the camera look at it? */
     char *resolved;                      /* the scene as resolved (overrides applied, defaults filled in), JSON text */
     cipc_model *model;
     cipc_state *state;
@@ -86,5 +136,16 @@ void cipc_scene_destroy(cipc_scene *scene);
 /* A scene known by the catalogue: name, what it shows, source (paper, figure, SCENES row), its file. */
 typedef struct cipc_scene_entry { const char *name, *title, *source, *file; } cipc_scene_entry;
 const cipc_scene_entry *cipc_scene_catalogue(int *count);
+
+/* What a scene costs at a size, as measured once (docs/scenes.md says where): nodes, steps, seconds on one thread with all monitors, peak memory. */
+typedef struct cipc_scene_cost {
+    const char *scene, *size;
+    int nodes, steps;
+    double seconds;            /* 0: not measured */
+    int megabytes;
+    bool extrapolated;         /* from the first steps, which are the cheap ones: at least so long */
+} cipc_scene_cost;
+/* NULL: no such scene or size. */
+const cipc_scene_cost *cipc_scene_cost_of(const char *scene, const char *size);
 
 #endif

@@ -13,6 +13,7 @@ int cipc_command_verify(int argc, char **argv); /* cli/verify.c */
 int cipc_command_vectors(int argc, char **argv); /* cli/vectors.c */
 int cipc_command_eval(int argc, char **argv);   /* cli/eval.c */
 int cipc_command_judge(int argc, char **argv);  /* cli/judge.c */
+int cipc_command_ccd(int argc, char **argv);    /* cli/ccd.c */
 
 /* One line on stderr, "cipc: where: CIPC-number: what: how to mend it"; returns the exit status that goes with the error. */
 int cipc_say(const cipc_error *error);
@@ -32,6 +33,9 @@ cipc_status cipc_parse_arguments(const cipc_arguments *arguments, int argc, char
 
 /* An integer argument in [least, most]. */
 cipc_status cipc_parse_integer(const char *place, const char *text, long least, long most, long *value, cipc_error *error);
+
+/* JUnit XML with one case, the command itself, which ended with this error: no earlier file of verdicts may stay for this call's. path NULL: nothing. Returns exit_status. */
+int cipc_junit_refused(const char *path, const char *command, const cipc_error *error, int exit_status);
 
 /* Print "cipc 0.1.0" to stdout. */
 void cipc_print_version(void);

@@ -7,12 +7,13 @@
 #include "base/json_number.h"
 #include "cli/conformance.h"
 #include "output/atomic_file.h"
+#include "output/junit.h"
 #include "verify/conformance.h"
 
-enum { KEY_PRECISION = 0x6001, KEY_JSON };
+enum { KEY_PRECISION = 0x6001, KEY_JSON, KEY_JUNIT };
 
 typedef struct request {
-    const char *files[2], *json;
+    const char *files[2], *json, *junit;
     int file_count;
     bool single, quiet;
 } request;
@@ -23,6 +24,7 @@ static cipc_status take(void *input, int key, char *value, cipc_error *error)
     switch (key) {
     case KEY_PRECISION: return cipc_take_precision(value, &r->single, error);
     case KEY_JSON: r->json = value; return CIPC_OK;
+    case KEY_JUNIT: r->junit = value; return CIPC_OK;
     case 'q': r->quiet = true; return CIPC_OK;
     default:
         if (r->file_count == 2) return cipc_fail(error, CIPC_E_USAGE, "judge", "surplus argument '%s'", value);
@@ -34,6 +36,7 @@ static cipc_status take(void *input, int key, char *value, cipc_error *error)
 static const struct argp_option options[] = {
     {"precision", KEY_PRECISION, "binary64|binary32", 0, "binary32: judge a port that computes in floats (default binary64)", 0},
     {"json", KEY_JSON, "FILE", 0, "Write the judgement as JSON too", 0},
+    {"junit", KEY_JUNIT, "FILE", 0, "Write the verdicts as JUnit XML too, a case per function", 0},
     {"quiet", 'q', NULL, 0, "No table when all is well", 0},
     {0},
 };
@@ -109,11 +112,31 @@ static cipc_status write_json(const char *path, const verify_judgement *j, cipc_
     return cipc_atomic_close(&file, status, error);
 }
 
+/* A case per function, and one for what is no answer to any: lines that cannot be read, ids that are unknown or stand twice. */
+static cipc_status write_junit(const char *path, const verify_judgement *j, cipc_error *error)
+{
+    cipc_junit_case *cases = cipc_alloc((size_t)j->count + 1, sizeof *cases);
+    if (cases == NULL) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, path, "no memory for the verdicts");
+    long others = j->failures;
+    for (int i = 0; i < j->count; i++) {
+        const verify_score *s = &j->scores[i];
+        cases[i] = (cipc_junit_case){.suite = "cipc judge", .name = s->fn, .outcome = s->failed > 0 ? CIPC_JUNIT_FAILED : CIPC_JUNIT_PASSED};
+        snprintf(cases[i].message, sizeof cases[i].message, "%ld answers are wrong or missing; the worst is of id %ld", s->failed, s->worst_id);
+        others -= s->failed;
+    }
+    cases[j->count] = (cipc_junit_case){.suite = "cipc judge", .name = "the stream", .outcome = others > 0 ? CIPC_JUNIT_FAILED : CIPC_JUNIT_PASSED};
+    snprintf(cases[j->count].message, sizeof cases[j->count].message, "lines that are not there, are no answer, or answer no question: %ld", others);
+    const cipc_status status = cipc_junit_write(path, cases, j->count + 1, error);
+    cipc_free(cases);
+    return status;
+}
+
 static int finish(const request *r, const verify_judgement *j)
 {
     cipc_error error;
     if (!r->quiet || j->failures > 0) print_table(j);
     if (r->json != NULL && write_json(r->json, j, &error) != CIPC_OK) return cipc_say(&error);
+    if (r->junit != NULL && write_junit(r->junit, j, &error) != CIPC_OK) return cipc_say(&error);
     const int level = verify_level_reached(j);
     printf("%ld answers, %ld failures", j->answers, j->failures);
     if (level >= 0) printf("; every function of level %d and below passed (%s)", level, j->precision == VERIFY_BINARY32 ? "binary32" : "binary64");
@@ -141,7 +164,7 @@ int cipc_command_judge(int argc, char **argv)
         status = verify_judge_streams(vectors, strcmp(vectors_name, "-") == 0 ? "standard input" : vectors_name, answers,
                                       answers == stdin ? "standard input" : r.files[1], &j, &error);
     }
-    const int exit_status = status == CIPC_OK ? finish(&r, &j) : cipc_say(&error);
+    const int exit_status = status == CIPC_OK ? finish(&r, &j) : cipc_junit_refused(r.junit, "cipc judge", &error, cipc_say(&error));
     close_stream(vectors);
     close_stream(answers);
     return exit_status;

@@ -18,6 +18,7 @@ static const command commands[] = {
     {"vectors", "write inputs of a function with right answers", cipc_command_vectors},
     {"eval", "answer queries with the solver's functions", cipc_command_eval},
     {"judge", "judge a port's answers", cipc_command_judge},
+    {"ccd", "compare methods of collision detection on recorded queries", cipc_command_ccd},
 };
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0] };
 

@@ -89,6 +89,7 @@ static cipc_status write_pictures(cipc_simulation *s, const paths *p, cipc_error
     options.azimuth = scene->camera_azimuth;
     options.elevation = scene->camera_elevation;
     options.zoom = scene->camera_zoom;
+    options.subject = scene->camera_subject;
     cipc_error found;
     cipc_status status = CIPC_OK;
     note(cipc_frames_png(p->frames, p->trajectory, scene->model, &options, &found), &found, &status, error);
@@ -115,6 +116,8 @@ cipc_status cipc_simulation_results(cipc_simulation *s, cipc_error *error)
     cipc_status status = CIPC_OK;
     note(cipc_trajectory_close(s->trajectory, &found), &found, &status, error);
     s->trajectory = NULL;
+    note(cipc_ccd_record_close(s->ccd_record, &found), &found, &status, error);
+    s->ccd_record = NULL;
     paths p = paths_in(s->request->directory);
     if (!p.good) {
         paths_free(&p);

@@ -6,14 +6,17 @@
 #include <string.h>
 #include "cli/simulation.h"
 
-enum { KEY_STEPS = 0x2001, KEY_SET, KEY_THREADS, KEY_RESUME, KEY_NO_MONITOR, KEY_OBJ, MOST_THREADS = 1024 };
+enum { KEY_STEPS = 0x2001, KEY_SET, KEY_THREADS, KEY_RESUME, KEY_NO_MONITOR, KEY_OBJ, KEY_JUNIT, KEY_RECORD_CCD, KEY_RECORD_CCD_LIMIT, MOST_THREADS = 1024 };
+enum { RECORDED_QUERIES = 20000, MOST_RECORDED_QUERIES = 10000000 };
 
 typedef struct request {
-    const char *scene_path, *directory;
+    const char *scene_path, *directory, *junit;
     const char **overrides; /* as given, and "steps=N" of --steps */
     int override_count;
     char steps[32];
     long threads;           /* 0: as the scene says */
+    const char *record_ccd; /* NULL: no record */
+    long record_ccd_limit;  /* 0: not given */
     bool resume, no_monitor, quiet, obj;
 } request;
 
@@ -46,6 +49,9 @@ static cipc_status take(void *input, int key, char *value, cipc_error *error)
     case KEY_RESUME: r->resume = true; return CIPC_OK;
     case KEY_NO_MONITOR: r->no_monitor = true; return CIPC_OK;
     case KEY_OBJ: r->obj = true; return CIPC_OK;
+    case KEY_JUNIT: r->junit = value; return CIPC_OK;
+    case KEY_RECORD_CCD: r->record_ccd = value; return CIPC_OK;
+    case KEY_RECORD_CCD_LIMIT: return cipc_parse_integer("--record-ccd-limit", value, 1, MOST_RECORDED_QUERIES, &r->record_ccd_limit, error);
     default: r->quiet = true; return CIPC_OK; /* 'q', the only one left */
     }
 }
@@ -59,6 +65,10 @@ static const struct argp_option options[] = {
     {"resume", KEY_RESUME, NULL, 0, "Go on after the last whole frame in the folder", 0},
     {"no-monitor", KEY_NO_MONITOR, NULL, 0, "Do not check the invariants: the run then proves nothing", 0},
     {"obj", KEY_OBJ, NULL, 0, "Write a Wavefront OBJ file per frame as well", 0},
+    {"junit", KEY_JUNIT, "FILE", 0, "Write the verdicts as JUnit XML too, for continuous integration systems", 0},
+    {"record-ccd", KEY_RECORD_CCD, "FILE", 0,
+     "Write the queries that the run puts to continuous collision detection to FILE, for cipc ccd, cipc eval and other codebases", 0},
+    {"record-ccd-limit", KEY_RECORD_CCD_LIMIT, "N", 0, "Record at most N of them, spread over the whole run (default 20000)", 0},
     {"quiet", 'q', NULL, 0, "No progress line", 0},
     {0},
 };
@@ -92,6 +102,16 @@ static void join_words(int argc, char **argv, char *text, size_t size)
     }
 }
 
+/* A scene that cannot be used: no earlier file of verdicts may stay for this run's. */
+static int refused(const request *r, const char *name, const cipc_error *error)
+{
+    cipc_run_summary summary = cipc_run_summary_default();
+    summary.scene_name = name;
+    summary.status = error->status;
+    summary.error = error;
+    return cipc_verdicts_junit(r->junit, &summary, cipc_say(error));
+}
+
 static int run(const request *r, const char *command)
 {
     char name[256], directory[512];
@@ -100,14 +120,15 @@ static int run(const request *r, const char *command)
     cipc_error error;
     cipc_scene *scene = NULL;
     if (cipc_scene_load(&scene, r->scene_path, r->override_count, r->overrides, &error) != CIPC_OK) {
-        return cipc_say(&error);
+        return refused(r, name, &error);
     }
     if (r->threads > 0) {
         scene->options.threads = (int)r->threads;
     }
     const cipc_run_request asked = {
-        .scene_name = name, .directory = r->directory != NULL ? r->directory : directory, .command = command, .resume = r->resume,
+        .scene_name = name, .directory = r->directory != NULL ? r->directory : directory, .command = command, .junit = r->junit, .resume = r->resume,
         .monitor = scene->monitor && !r->no_monitor, .quiet = r->quiet, .write_obj = r->obj || scene->write_obj,
+        .record_ccd = r->record_ccd, .record_ccd_limit = r->record_ccd_limit > 0 ? r->record_ccd_limit : RECORDED_QUERIES,
     };
     const int exit_status = cipc_simulate(scene, &asked);
     cipc_scene_destroy(scene);
@@ -126,6 +147,13 @@ static cipc_status parse(request *r, int argc, char **argv, bool *answered, cipc
     }
     if (r->directory != NULL && r->directory[0] == '\0') {
         return cipc_fail(error, CIPC_E_USAGE, "--output", "the folder's name is empty");
+    }
+    if (r->record_ccd != NULL && r->record_ccd[0] == '\0') {
+        return cipc_fail(error, CIPC_E_USAGE, "--record-ccd", "the file's name is empty");
+    }
+    if (r->record_ccd == NULL && r->record_ccd_limit > 0) {
+        cipc_fail(error, CIPC_E_USAGE, "--record-ccd-limit", "nothing is recorded");
+        return cipc_fail_remedy(error, "name the file with --record-ccd FILE");
     }
     if (r->steps[0] != '\0') {
         r->overrides[r->override_count++] = r->steps;

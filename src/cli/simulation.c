@@ -146,6 +146,9 @@ static cipc_status open_files(cipc_simulation *s, const char *trajectory, const 
                               cipc_error *error)
 {
     cipc_status status = s->request->resume ? CIPC_OK : make_directory(s->request->directory, error);
+    if (status == CIPC_OK && s->request->record_ccd != NULL) { /* the folder may be the place for it */
+        status = cipc_ccd_record_open(&s->ccd_record, s->request->record_ccd, s->scene->model, s->request->record_ccd_limit, error);
+    }
     if (status == CIPC_OK) {
         status = open_trajectory(s, trajectory, error);
     }
@@ -288,6 +291,7 @@ static void clear(cipc_simulation *s)
 {
     cipc_error ignored;
     cipc_trajectory_close(s->trajectory, &ignored); /* still open only if something else has failed and been said */
+    cipc_ccd_record_discard(s->ccd_record); /* likewise */
     cipc_stepper_destroy(s->stepper);
     cipc_monitor_destroy(s->monitor);
     cipc_free(s->previous);
@@ -302,7 +306,26 @@ int cipc_simulate(cipc_scene *scene, const cipc_run_request *request)
     cipc_simulation s = {.request = request, .scene = scene, .begin = cipc_clock()};
     cipc_interrupt_hold();
     begin_summary(&s);
-    const int exit_status = prepare(&s) == CIPC_OK ? run_to_the_end(&s) : cipc_say(&s.error);
+    int exit_status = 0;
+    const cipc_status status = prepare(&s);
+    if (status == CIPC_OK) {
+        exit_status = run_to_the_end(&s);
+    } else {
+        exit_status = cipc_say(&s.error);
+        s.summary.status = status;
+        s.summary.error = &s.error;
+    }
+    exit_status = cipc_verdicts_junit(request->junit, &s.summary, exit_status);
     clear(&s);
     return exit_status;
+}
+
+int cipc_verdicts_junit(const char *path, const cipc_run_summary *summary, int exit_status)
+{
+    cipc_error error;
+    if (path == NULL || cipc_summary_junit(path, summary, &error) == CIPC_OK) {
+        return exit_status;
+    }
+    const int second = cipc_say(&error);
+    return exit_status != 0 ? exit_status : second;
 }

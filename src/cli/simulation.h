@@ -12,6 +12,9 @@ typedef struct cipc_run_request {
     const char *scene_name;  /* "drape" */
     const char *directory;   /* to write to */
     const char *command;     /* the words of the command line */
+    const char *junit;       /* file for the verdicts as JUnit XML, or NULL */
+    const char *record_ccd;  /* file for the queries put to CCD, or NULL */
+    long record_ccd_limit;
     bool resume, monitor, quiet, write_obj;
 } cipc_run_request;
 
@@ -22,6 +25,7 @@ typedef struct cipc_simulation {
     cipc_stepper *stepper;
     cipc_trajectory *trajectory;
     FILE *stats;
+    cipc_ccd_record *ccd_record;     /* NULL: none is asked for */
     cipc_run_summary summary;
     cipc_step_invariants seen;       /* of the step under way */
     double *previous;                /* 3 * node_count: the point accepted before, where the next path begins; NULL: paths are not checked */
@@ -40,6 +44,9 @@ char *cipc_path_in(const char *directory, const char *name);
 
 /* Run the scene. Returns the exit status; messages have been printed. */
 int cipc_simulate(cipc_scene *scene, const cipc_run_request *request);
+
+/* The verdicts as JUnit XML, if a file is named, after a run that ends with exit_status. Returns that, or the exit status of a failure to write; the message has been printed. */
+int cipc_verdicts_junit(const char *path, const cipc_run_summary *summary, int exit_status);
 
 /* The steps themselves (cli/steps.c): until all are done, one fails, an invariant breaks, or a signal comes. */
 cipc_status cipc_simulation_steps(cipc_simulation *s);

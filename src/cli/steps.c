@@ -201,6 +201,9 @@ cipc_status cipc_simulation_steps(cipc_simulation *s)
 {
     cipc_status status = CIPC_OK;
     cipc_stepper_set_monitor(s->stepper, look, s);
+    if (s->ccd_record != NULL) {
+        cipc_stepper_set_ccd_watch(s->stepper, cipc_ccd_record_search, s->ccd_record);
+    }
     while (status == CIPC_OK && s->scene->state->step < s->scene->steps) {
         if (cipc_interrupt_seen()) {
             s->interrupted = true;

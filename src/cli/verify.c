@@ -9,18 +9,19 @@
 #include "cli/interrupt.h"
 #include "cli/simulation.h"
 #include "output/atomic_file.h"
+#include "output/junit.h"
 #include "output/versions.h"
 #include "scene/nearest_name.h"
 #include "verify/public_queries.h"
 #include "verify/report.h"
 
-enum { KEY_SAMPLES = 0x3001, KEY_SEED, KEY_JSON, KEY_SHARD, KEY_MERGE, KEY_THREADS, KEY_DATA, KEY_WORST, MOST_SHARDS = 64, MOST_THREADS = 1024, MOST_FILES = 64 };
+enum { KEY_SAMPLES = 0x3001, KEY_SEED, KEY_JSON, KEY_SHARD, KEY_MERGE, KEY_THREADS, KEY_DATA, KEY_WORST, KEY_JUNIT, MOST_SHARDS = 64, MOST_THREADS = 1024, MOST_FILES = 64 };
 
 static const verify_campaign *const campaigns[] = {&verify_derivatives, &verify_distance, &verify_toi, &verify_energies, &verify_intersection};
 enum { CAMPAIGN_COUNT = sizeof campaigns / sizeof campaigns[0] };
 
 typedef struct request {
-    const char *campaign, *json, *worst, *data;
+    const char *campaign, *json, *junit, *worst, *data;
     const char *files[MOST_FILES]; /* operands; the files to merge if `merge` */
     int file_count;
     long samples, seed, shard, shards, threads;
@@ -52,6 +53,7 @@ static cipc_status take(void *input, int key, char *value, cipc_error *error)
     case KEY_SAMPLES: return cipc_parse_integer("--samples", value, 1, 1000000000, &r->samples, error);
     case KEY_SEED: return cipc_parse_integer("--seed", value, 0, LONG_MAX, &r->seed, error);
     case KEY_JSON: r->json = value; return CIPC_OK;
+    case KEY_JUNIT: r->junit = value; return CIPC_OK;
     case KEY_SHARD: return take_shard(r, value, error);
     case KEY_MERGE: r->merge = true; return CIPC_OK;
     case KEY_THREADS: return cipc_parse_integer("--threads", value, 1, MOST_THREADS, &r->threads, error);
@@ -65,6 +67,7 @@ static const struct argp_option options[] = {
     {"samples", KEY_SAMPLES, "N", 0, "Samples (default 20000); each row of a campaign takes a fixed share of N", 0},
     {"seed", KEY_SEED, "S", 0, "Seed of all samples (default 1): sample i is the same whatever the shards and threads", 0},
     {"json", KEY_JSON, "FILE", 0, "Write the report as JSON too", 0},
+    {"junit", KEY_JUNIT, "FILE", 0, "Write the verdicts as JUnit XML too, a case per row of a campaign", 0},
     {"worst", KEY_WORST, "FILE", 0, "Write the worst cases as queries, a line each, which cipc eval replays", 0},
     {"data", KEY_DATA, "DIR", 0, "Run the public collision queries in DIR too (campaign toi)", 0},
     {"shard", KEY_SHARD, "K/N", 0, "Run the K-th of N parts only; --merge joins their reports", 0},
@@ -175,6 +178,30 @@ static cipc_status write_json(const char *path, const verify_report *report, cip
     return cipc_atomic_close(&file, status, error);
 }
 
+/* A case per row. */
+static cipc_status write_junit(const char *path, const verify_report *report, cipc_error *error)
+{
+    const bool whole = verify_report_whole(report);
+    int count = 0;
+    for (int c = 0; c < report->campaign_count; c++) count += report->campaigns[c].row_count;
+    cipc_junit_case *cases = cipc_alloc((size_t)count + 1, sizeof *cases);
+    if (cases == NULL) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, path, "no memory for the verdicts");
+    cipc_junit_case *next = cases;
+    for (int c = 0; c < report->campaign_count; c++) {
+        for (int i = 0; i < report->campaigns[c].row_count; i++, next++) {
+            const verify_row *row = &report->campaigns[c].rows[i];
+            *next = (cipc_junit_case){.suite = report->campaigns[c].name, .name = row->name};
+            if (verify_row_failure(row, whole, next->message, sizeof next->message)) next->outcome = CIPC_JUNIT_FAILED;
+        }
+    }
+    if (count == 0) { /* a merged report may have none: that is a failure, as it is in the exit status */
+        cases[count++] = (cipc_junit_case){.suite = "cipc verify", .name = "the report", .outcome = CIPC_JUNIT_FAILED, .message = "has no row"};
+    }
+    const cipc_status status = cipc_junit_write(path, cases, count, error);
+    cipc_free(cases);
+    return status;
+}
+
 static cipc_status write_worst(const char *path, const verify_report *report, cipc_error *error)
 {
     cipc_atomic_file file;
@@ -189,6 +216,7 @@ static int finish(const request *r, const verify_report *report)
     const int failures = verify_report_failures(report, NULL);
     if (!r->quiet || failures > 0) verify_report_print(report, stdout);
     if (r->json != NULL) status = write_json(r->json, report, &error);
+    if (status == CIPC_OK && r->junit != NULL) status = write_junit(r->junit, report, &error);
     if (status == CIPC_OK && r->worst != NULL) status = write_worst(r->worst, report, &error);
     if (status != CIPC_OK) return cipc_say(&error);
     verify_report_failures(report, stdout);
@@ -209,7 +237,7 @@ int cipc_command_verify(int argc, char **argv)
     verify_report report = {0};
     cipc_interrupt_hold();
     cipc_status status = r.merge ? merge_all(&r, &report, &error) : run_all(&r, &report, &error);
-    const int exit_status = status == CIPC_OK ? finish(&r, &report) : cipc_say(&error);
+    const int exit_status = status == CIPC_OK ? finish(&r, &report) : cipc_junit_refused(r.junit, "cipc verify", &error, cipc_say(&error));
     verify_report_free(&report);
     return exit_status;
 }

@@ -5,6 +5,7 @@
 
 #include "base/vector.h"
 #include "contact/additive_ccd.h"
+#include "contact/stencil.h"
 
 cipc_ccd_options cipc_ccd_options_default(void)
 {
@@ -14,16 +15,6 @@ cipc_ccd_options cipc_ccd_options_default(void)
 
 /* Nodes of a stencil, and how many of them belong to its first primitive. */
 static const int node_count[CIPC_PAIR_KIND_COUNT] = {2, 3, 4, 4}, first_count[CIPC_PAIR_KIND_COUNT] = {1, 1, 1, 2};
-
-static double true_distance2(cipc_pair_kind kind, const double *x)
-{
-    switch (kind) {
-    case CIPC_POINT_POINT: return cipc_point_point_distance2_value(x);
-    case CIPC_POINT_EDGE: return cipc_point_edge_distance2(x);
-    case CIPC_POINT_TRIANGLE: return cipc_point_triangle_distance2(x);
-    default: return cipc_edge_edge_distance2(x);
-    }
-}
 
 /* (12) l_p: how fast the two primitives can approach at most. */
 static double largest_approach(cipc_pair_kind kind, const double *p)
@@ -86,7 +77,7 @@ cipc_ccd_result cipc_additive_ccd_until(cipc_pair_kind kind, const double *x, co
     if (lp == 0) return result;
     /* (20): the first step alone leads beyond the bound */
     if (bound < t_max && (1 - options->slackness) * box_gap(kind, x0, xi) > bound * lp) return result;
-    double gap = gap_of(true_distance2(kind, x0), xi);
+    double gap = gap_of(cipc_stencil_distance2(kind, x0), xi);
     if (!(gap > 0)) {
         result.toi = 0;
         result.hit = true;
@@ -99,7 +90,7 @@ cipc_ccd_result cipc_additive_ccd_until(cipc_pair_kind kind, const double *x, co
         /* (17), asked before (15), saves early hits (SPEC V.4); Algorithm 1 asks (15) first. */
         if (!options->gap_first && next > t_max) return result;
         for (int i = 0; i < n; i++) y[i] = x0[i] + next * p0[i];
-        gap = gap_of(true_distance2(kind, y), xi);
+        gap = gap_of(cipc_stencil_distance2(kind, y), xi);
         if (t > 0 && gap < target) { /* (15) */
             result.toi = t;
             result.hit = true;

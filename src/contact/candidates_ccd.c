@@ -26,6 +26,21 @@ static bool swept_apart(const double y[12], const double q[12], int first, int c
     return false;
 }
 
+bool cipc_candidates_query(const cipc_model *model, const cipc_candidates *c, long index, const double *x, const double *p, double t_max,
+                           const cipc_ccd_options *options, cipc_stencil_path *path, double *xi)
+{
+    int nodes[4];
+    const int *pair = cipc_candidates_pair(c, index, &path->kind);
+    int count = cipc_pair_nodes(path->kind);
+    path->to_end = false;
+    cipc_stencil_nodes(model, path->kind, pair, nodes);
+    cipc_stencil_positions(x, nodes, count, path->x);
+    cipc_stencil_positions(p, nodes, count, path->p);
+    *xi = cipc_stencil_offset(model, path->kind, nodes);
+    double whole = options->gap_first ? 1 : t_max; /* the released code looks at the whole path */
+    return !swept_apart(path->x, path->p, cipc_pair_first_nodes(path->kind), count, whole, *xi);
+}
+
 typedef struct earliest {
     double t;
     long index;
@@ -36,16 +51,9 @@ typedef struct earliest {
 static void test_candidate(const cipc_model *model, const cipc_candidates *c, const double *x, const double *p, double t_max, long index,
                            const cipc_ccd_options *options, earliest *best)
 {
-    int nodes[4];
     cipc_stencil_path path;
-    const int *pair = cipc_candidates_pair(c, index, &path.kind);
-    int count = cipc_pair_nodes(path.kind);
-    path.to_end = false;
-    cipc_stencil_nodes(model, path.kind, pair, nodes);
-    cipc_stencil_positions(x, nodes, count, path.x);
-    cipc_stencil_positions(p, nodes, count, path.p);
-    double xi = cipc_stencil_offset(model, path.kind, nodes), whole = options->gap_first ? 1 : t_max; /* the released code looks at the whole path */
-    if (swept_apart(path.x, path.p, cipc_pair_first_nodes(path.kind), count, whole, xi)) return;
+    double xi;
+    if (!cipc_candidates_query(model, c, index, x, p, t_max, options, &path, &xi)) return;
     cipc_ccd_result r = contact_ccd_until(&path, xi, t_max, best->t, options);
     if (r.hit && (r.toi < best->t || best->index < 0)) {
         best->t = r.toi;

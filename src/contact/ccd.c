@@ -16,6 +16,7 @@ cipc_ccd_result contact_ccd_until(const cipc_stencil_path *path, double xi, doub
     switch (options->method) {
     case CIPC_CCD_ADDITIVE: return additive(path, xi, t_max, bound, options);
     case CIPC_CCD_CUBIC: return cipc_cubic_ccd(path, xi, t_max, options);
+    case CIPC_CCD_MINIMUM_SEPARATION: return cipc_minimum_separation_ccd(path, xi, t_max, options);
     default: return contact_certified_ccd_until(path, xi, t_max, bound, options);
     }
 }

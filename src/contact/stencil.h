@@ -3,6 +3,7 @@
 #define CIPC_CONTACT_STENCIL_H
 
 #include "base/vector.h"
+#include "cipc/geometry.h"
 #include "cipc/model.h"
 
 /* The global nodes of a pair's stencil, in the order of its kind; unused ones -1. */
@@ -27,6 +28,17 @@ static inline void cipc_stencil_positions(const double *x, const int *nodes, int
 {
     for (int i = 0; i < 4; i++) {
         for (int k = 0; k < 3; k++) y[3 * i + k] = i < count ? x[3 * nodes[i] + k] : 0;
+    }
+}
+
+/* True squared distance of the two primitives. */
+static inline double cipc_stencil_distance2(cipc_pair_kind kind, const double *x)
+{
+    switch (kind) {
+    case CIPC_POINT_POINT: return cipc_point_point_distance2_value(x);
+    case CIPC_POINT_EDGE: return cipc_point_edge_distance2(x);
+    case CIPC_POINT_TRIANGLE: return cipc_point_triangle_distance2(x);
+    default: return cipc_edge_edge_distance2(x);
     }
 }
 

@@ -52,15 +52,8 @@ static cipc_status free_part_of_way(cipc_stepper *s, double *alpha, cipc_error *
 {
     *alpha = cipc_strain_step(s, s->x, s->direction);
     cipc_status status = cipc_cache_cover(s, s->x, s->direction, error);
-    if (status) return status;
-    int nodes[4];
-    double t = cipc_candidates_ccd(s->model, &s->cache.candidates, s->x, s->direction, *alpha, &s->options.ccd, s->options.threads, nodes, NULL);
-    if (t < *alpha) {
-        s->limit.what = "contact";
-        memcpy(s->limit.nodes, nodes, sizeof nodes);
-        *alpha = t;
-    }
-    return CIPC_OK;
+    if (!status) *alpha = cipc_contact_step(s, *alpha);
+    return status;
 }
 
 static void put_on_target(cipc_stepper *s)

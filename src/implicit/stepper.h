@@ -61,6 +61,8 @@ struct cipc_stepper {
     cipc_implicit_options options;
     cipc_monitor_callback *monitor;
     void *monitor_context;
+    cipc_ccd_watch *ccd_watch;
+    void *ccd_watch_context;
     double bounding_box_diagonal; /* of the rest shape and the first state, m */
     double mean_mass;             /* kg */
     double min_strain_stiffness, max_strain_stiffness;
@@ -181,6 +183,10 @@ bool cipc_strain_feasible(const cipc_stepper *s, const double *x);
 double cipc_strain_step(cipc_stepper *s, const double *x, const double *p);
 /* Doubles s->strain_factor by the rule of SPEC C.2; true if it did. */
 bool cipc_strain_adapt(cipc_stepper *s);
+
+/* contact_step.c: the largest part, up to t_max, of the way from s->x along s->direction, which the cache must cover, that meets no contact; what limits it goes to
+ * s->limit. */
+double cipc_contact_step(cipc_stepper *s, double t_max);
 
 /* dirichlet_motion.c */
 cipc_status cipc_dirichlet_begin(cipc_stepper *s, double time, cipc_error *error);

@@ -85,9 +85,11 @@ static void add_body(const sheet *s, const cipc_body *body, cipc_bounds *bounds)
     }
 }
 
-/* Does the body decide where the camera stands? Moving bodies do, and fixed ones that are not much larger than these. */
-static bool is_subject(const sheet *s, const cipc_body *body, double diagonal_of_moving)
+/* Does the body decide where the camera stands? If nobody says otherwise, moving bodies do, and fixed ones that are not much larger than these. */
+static bool is_subject(const sheet *s, const cipc_model *model, int b, const bool *chosen, double diagonal_of_moving)
 {
+    const cipc_body *body = &model->bodies[b];
+    if (chosen != NULL) return chosen[b];
     if (!body->fixed || !(diagonal_of_moving > 0)) {
         return true;
     }
@@ -107,14 +109,15 @@ static void place_camera(sheet *s, const cipc_model *model, const cipc_picture_o
     }
     const double diagonal = cipc_bounds_diagonal(&moving);
     for (int b = 0; b < model->body_count; b++) {
-        if (is_subject(s, &model->bodies[b], diagonal)) {
+        if (is_subject(s, model, b, options->subject, diagonal)) {
             add_body(s, &model->bodies[b], &s->subject);
         }
     }
     s->camera = cipc_camera_look(&s->subject, options->azimuth, options->elevation, (double)options->tile_width / options->tile_height);
     for (int b = 0; b < model->body_count; b++) {
         const cipc_body *body = &model->bodies[b];
-        for (int i = 0; i < s->count && is_subject(s, body, diagonal); i++) {
+        const bool subject = is_subject(s, model, b, options->subject, diagonal);
+        for (int i = 0; i < s->count && subject; i++) {
             for (int n = body->first_node; n < body->first_node + body->node_count; n++) {
                 cipc_camera_fit(&s->camera, frame_positions(s, i) + 3 * n, radius_of(body));
             }

@@ -37,7 +37,7 @@ bool scene_is_body(scene_reader *r, const scene_cursor *body)
     static const char *const keys[] = {"name",      "offset",   "friction", "fixed",    "transform",       "rest",           "velocity",
                                        "damping",   "density",  "shell",    "material", "membrane_factor", "bending_factor", "thickness",
                                        "membrane",  "bending",  "rods",     "diameter", "strain_limit",    "rest_curvature", "young",
-                                       "particles", "volume",   "poisson",  "model",    "collision_group", NULL};
+                                       "particles", "volume",   "poisson",  "model",    "collision_group", "copies", NULL};
     return scene_is_object(r, body, keys);
 }
 
@@ -78,7 +78,7 @@ void scene_read_kind_mesh(scene_reader *r, const scene_cursor *body, cipc_body_k
     if (kind == CIPC_BODY_SHELL)
         scene_read_shell(r, &member, seed, mesh);
     else if (kind == CIPC_BODY_RODS)
-        scene_read_rods(r, &member, mesh);
+        scene_read_rods(r, &member, seed, mesh);
     else if (kind == CIPC_BODY_PARTICLES)
         scene_read_particles(r, &member, seed, mesh);
     else

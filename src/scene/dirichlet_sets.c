@@ -59,11 +59,10 @@ static void read_track(set_reader *s, const scene_cursor *cursor, int body, cipc
 }
 
 /* The set of one body. `pattern` has what sets of several bodies share. */
-static void add_set(set_reader *s, const scene_cursor *cursor, const scene_cursor *name, const cipc_dirichlet_set *pattern)
+static void add_set(set_reader *s, const scene_cursor *cursor, int body, const cipc_dirichlet_set *pattern)
 {
     cipc_dirichlet_set set = *pattern;
     cipc_error error;
-    int body = scene_find_body(s->r, name, s->bodies);
     select_nodes(s, cursor, body, &set);
     read_track(s, cursor, body, &set);
     for (int i = 0; i < set.node_count; i++) set.nodes[i] += s->model->bodies[body].first_node;
@@ -82,7 +81,7 @@ static void check_number(set_reader *s, const scene_cursor *cursor, bool several
         scene_reject(s->r, &track, CIPC_E_OUT_OF_RANGE, "has the vertices of one body, which 'body' must name");
 }
 
-/* A body after the other, each released an interval after the one before. */
+/* A body after the other, copies in their order, each released an interval after the one before. */
 static void add_sets(set_reader *s, const scene_cursor *cursor, cipc_dirichlet_set *pattern)
 {
     scene_cursor names = scene_member(cursor, "bodies"), interval = scene_member(cursor, "release_interval");
@@ -92,10 +91,15 @@ static void add_sets(set_reader *s, const scene_cursor *cursor, cipc_dirichlet_s
         step = scene_number(s->r, cursor, "release_interval", 0, scene_not_negative);
     else if (interval.value != NULL)
         scene_reject(s->r, &interval, CIPC_E_MISSING_KEY, "follows the first release, but 'release' is never");
+    int released = 0;
     for (size_t i = 0; i < json_array_size(names.value) && s->r->status == CIPC_OK; i++) {
         scene_cursor name = scene_element(&names, i);
-        pattern->release = first + (double)i * step;
-        add_set(s, cursor, &name, pattern);
+        int count, body = scene_find_bodies(s->r, &name, s->bodies, &count);
+        for (int k = 0; k < count && s->r->status == CIPC_OK; k++) {
+            pattern->release = first + released * step; /* step 0 for "never" */
+            released++;
+            add_set(s, cursor, body + k, pattern);
+        }
     }
 }
 
@@ -111,7 +115,8 @@ static void read_set(set_reader *s, const scene_cursor *cursor)
     pattern.release = scene_time_or_never(s->r, cursor, "release");
     scene_read_motions(s->r, cursor, &pattern.motion_count, &pattern.motions);
     scene_cursor name = scene_member(cursor, "body");
-    if (s->r->status == CIPC_OK && way == 0) add_set(s, cursor, &name, &pattern);
+    int body = s->r->status == CIPC_OK && way == 0 ? scene_find_body(s->r, &name, s->bodies) : 0;
+    if (s->r->status == CIPC_OK && way == 0) add_set(s, cursor, body, &pattern);
     if (s->r->status == CIPC_OK && way == 1) add_sets(s, cursor, &pattern);
     cipc_free(pattern.motions);
 }

@@ -42,17 +42,15 @@ static void read_point(scene_reader *r, const scene_cursor *point, size_t dimens
     }
 }
 
-double *scene_points(scene_reader *r, const scene_cursor *object, const char *key, size_t dimension, size_t minimum, size_t maximum,
-                     int *count)
+double *scene_points_at(scene_reader *r, const scene_cursor *list, size_t dimension, size_t minimum, size_t maximum, int *count)
 {
-    scene_cursor member = scene_member(object, key);
     *count = 0;
-    if (!find_array(r, &member, "points", minimum, maximum)) return NULL;
-    size_t points = json_array_size(member.value);
+    if (!find_array(r, list, "points", minimum, maximum)) return NULL;
+    size_t points = json_array_size(list->value);
     double *values = cipc_alloc(dimension * points, sizeof *values);
-    if (values == NULL) scene_reject_memory(r, &member);
+    if (values == NULL) scene_reject_memory(r, list);
     for (size_t i = 0; i < points && r->status == CIPC_OK; i++) {
-        scene_cursor point = scene_element(&member, i);
+        scene_cursor point = scene_element(list, i);
         read_point(r, &point, dimension, values + dimension * i);
     }
     if (r->status == CIPC_OK) {
@@ -61,6 +59,13 @@ double *scene_points(scene_reader *r, const scene_cursor *object, const char *ke
     }
     cipc_free(values);
     return NULL;
+}
+
+double *scene_points(scene_reader *r, const scene_cursor *object, const char *key, size_t dimension, size_t minimum, size_t maximum,
+                     int *count)
+{
+    scene_cursor member = scene_member(object, key);
+    return scene_points_at(r, &member, dimension, minimum, maximum, count);
 }
 
 int *scene_integer_list(scene_reader *r, const scene_cursor *object, const char *key, int lower, int upper, size_t minimum, size_t maximum,

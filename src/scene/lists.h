@@ -11,6 +11,8 @@ void scene_integers(scene_reader *reader, const scene_cursor *object, const char
  * cipc_free. NULL if rejected. */
 double *scene_points(scene_reader *reader, const scene_cursor *object, const char *key, size_t dimension, size_t minimum, size_t maximum,
                      int *count);
+/* The same of the array under the cursor. */
+double *scene_points_at(scene_reader *reader, const scene_cursor *list, size_t dimension, size_t minimum, size_t maximum, int *count);
 /* Integers likewise. */
 int *scene_integer_list(scene_reader *reader, const scene_cursor *object, const char *key, int lower, int upper, size_t minimum,
                         size_t maximum, int *count);

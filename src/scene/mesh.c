@@ -8,6 +8,7 @@ void cipc_mesh_free(cipc_mesh *mesh)
     cipc_free(mesh->triangles);
     cipc_free(mesh->segments);
     cipc_free(mesh->tetrahedra);
+    cipc_free(mesh->pattern);
     *mesh = (cipc_mesh){0};
 }
 

@@ -2,6 +2,7 @@
 #include <math.h>
 
 #include "scene/mesh.h"
+#include "scene/random.h"
 
 static const char place[] = "rods";
 
@@ -92,4 +93,20 @@ cipc_status cipc_mesh_rods(cipc_mesh *mesh, const int count[3], const double spa
     status = scene_mesh_allocate_sizes(mesh, &sizes, place, error);
     if (status == CIPC_OK) add_rods(mesh, count, spacing, length, segments, round);
     return status;
+}
+
+cipc_status cipc_mesh_shorten_rods(cipc_mesh *mesh, double length, int segments, double shorten, unsigned long seed, cipc_error *error)
+{
+    if (!(shorten >= 0 && shorten < length)) {
+        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, place, "rods of %g m that lose up to %g m", length, shorten);
+    }
+    uint64_t random = seed;
+    for (int first = 0; first < mesh->node_count; first += segments + 1) {
+        const double kept = 1 - shorten * scene_random(&random) / length, top = mesh->nodes[3 * (first + segments) + 1];
+        for (int s = 0; s < segments; s++) {
+            double *y = &mesh->nodes[3 * (first + s) + 1];
+            *y = top - kept * (top - *y);
+        }
+    }
+    return CIPC_OK;
 }

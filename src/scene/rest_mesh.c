@@ -37,11 +37,28 @@ static void compare(scene_reader *r, const scene_cursor *cursor, cipc_mesh_kind 
     }
 }
 
+static double *copy_pattern(scene_reader *r, const scene_cursor *rest, const cipc_mesh *mesh)
+{
+    if (mesh->pattern == NULL) {
+        scene_reject(r, rest, CIPC_E_OUT_OF_RANGE, "is \"flat\", but this mesh has no flat pattern: only gores, pleats and ribbons have one");
+        return NULL;
+    }
+    size_t numbers = 3 * (size_t)mesh->node_count;
+    double *nodes = cipc_alloc(numbers, sizeof *nodes);
+    if (nodes == NULL)
+        scene_reject_memory(r, rest);
+    else
+        memcpy(nodes, mesh->pattern, numbers * sizeof *nodes);
+    return nodes;
+}
+
 double *scene_read_rest_mesh(scene_reader *r, const scene_cursor *body, cipc_mesh_kind kind, const cipc_mesh *mesh)
 {
     scene_cursor rest = scene_member(body, "rest"), file = scene_member(&rest, "mesh");
     cipc_mesh read;
-    if (file.value == NULL || r->status != CIPC_OK) return NULL;
+    if (r->status != CIPC_OK) return NULL;
+    if (json_is_string(rest.value) && strcmp(json_string_value(rest.value), "flat") == 0) return copy_pattern(r, &rest, mesh);
+    if (file.value == NULL) return NULL;
     scene_read_mesh_file(r, &rest, kind, &read);
     if (r->status == CIPC_OK) compare(r, &file, kind, &read, mesh);
     double *nodes = NULL;

@@ -1,6 +1,8 @@
 /* Line, polyline, arc, grid of rods, net or file. */
 #include "scene/rods.h"
 
+#include <limits.h>
+
 #include "scene/alternatives.h"
 #include "scene/lists.h"
 #include "scene/mesh.h"
@@ -50,9 +52,9 @@ static void read_arc(scene_reader *r, const scene_cursor *arc, cipc_mesh *mesh)
     if (r->status == CIPC_OK) scene_adopt(r, arc, cipc_mesh_arc(mesh, radius, angle, segments, &error), &error);
 }
 
-static void read_grid(scene_reader *r, const scene_cursor *grid, cipc_mesh *mesh)
+static void read_grid(scene_reader *r, const scene_cursor *grid, unsigned long seed, cipc_mesh *mesh)
 {
-    static const char *const keys[] = {"count", "spacing", "length", "segments", "round", NULL};
+    static const char *const keys[] = {"count", "spacing", "length", "segments", "round", "shorten", "seed", NULL};
     int count[3];
     double spacing[3];
     cipc_error error;
@@ -62,7 +64,11 @@ static void read_grid(scene_reader *r, const scene_cursor *grid, cipc_mesh *mesh
     double length = scene_number(r, grid, "length", SCENE_REQUIRED_NUMBER, scene_positive);
     int segments = read_segments(r, grid);
     bool round = scene_boolean(r, grid, "round", false);
+    double shorten = scene_number(r, grid, "shorten", 0, scene_not_negative);
+    unsigned long own_seed = (unsigned long)scene_integer(r, grid, "seed", (int)seed, 0, INT_MAX);
     if (r->status == CIPC_OK) scene_adopt(r, grid, cipc_mesh_rods(mesh, count, spacing, length, segments, round, &error), &error);
+    if (r->status == CIPC_OK) scene_adopt(r, grid, cipc_mesh_shorten_rods(mesh, length, segments, shorten, own_seed, &error), &error);
+    if (r->status != CIPC_OK) cipc_mesh_free(mesh);
 }
 
 static void read_net(scene_reader *r, const scene_cursor *net, cipc_mesh *mesh)
@@ -77,7 +83,7 @@ static void read_net(scene_reader *r, const scene_cursor *net, cipc_mesh *mesh)
     if (r->status == CIPC_OK) scene_adopt(r, net, cipc_mesh_net(mesh, size, rods, segments, lift, &error), &error);
 }
 
-void scene_read_rods(scene_reader *r, const scene_cursor *rods, cipc_mesh *mesh)
+void scene_read_rods(scene_reader *r, const scene_cursor *rods, unsigned long seed, cipc_mesh *mesh)
 {
     enum { LINE, POLYLINE, ARC, GRID, NET, MESH };
     static const char *const keys[] = {"line", "polyline", "arc", "grid", "net", "mesh", NULL};
@@ -93,7 +99,7 @@ void scene_read_rods(scene_reader *r, const scene_cursor *rods, cipc_mesh *mesh)
     else if (way == ARC)
         read_arc(r, &member, mesh);
     else if (way == GRID)
-        read_grid(r, &member, mesh);
+        read_grid(r, &member, seed, mesh);
     else if (way == NET)
         read_net(r, &member, mesh);
     else

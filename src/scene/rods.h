@@ -6,6 +6,6 @@
 #include "scene/reader.h"
 
 /* Read a "rods" object, as scene_read_shell reads its own. */
-void scene_read_rods(scene_reader *reader, const scene_cursor *rods, cipc_mesh *mesh);
+void scene_read_rods(scene_reader *reader, const scene_cursor *rods, unsigned long seed, cipc_mesh *mesh);
 
 #endif

@@ -36,10 +36,25 @@ static void reject_model(scene_reader *r, const scene_cursor *root, const scene_
     scene_cursor list = scene_member(root, "bodies");
     for (int b = 0; b < bodies->count; b++) {
         if (strcmp(bodies->descriptions[b].name, error->place) != 0) continue;
-        scene_cursor body = scene_element(&list, (size_t)b), mesh = scene_member(&body, scene_kind_key(bodies->descriptions[b].kind));
+        scene_cursor body = scene_element(&list, (size_t)scene_entry_of(bodies, b)), mesh = scene_member(&body, scene_kind_key(bodies->descriptions[b].kind));
         scene_reject(r, &mesh, status, "%s", error->what);
     }
     scene_reject(r, &list, status, "%s: %s", error->place, error->what);
+}
+
+/* Which bodies the pictures are about: output.camera.subject. */
+static void read_subject(scene_reader *r, const scene_cursor *root, const scene_bodies *bodies, cipc_scene *scene)
+{
+    scene_cursor output = scene_member(root, "output"), camera = scene_member(&output, "camera"), subject = scene_member(&camera, "subject");
+    if (subject.value == NULL || !scene_is_array(r, &subject, 1, (size_t)bodies->count)) return;
+    scene->camera_subject = cipc_alloc((size_t)bodies->count, sizeof *scene->camera_subject);
+    if (scene->camera_subject == NULL) scene_reject_memory(r, &subject);
+    for (size_t i = 0; i < json_array_size(subject.value) && r->status == CIPC_OK; i++) {
+        scene_cursor name = scene_element(&subject, i);
+        int count;
+        const int first = scene_find_bodies(r, &name, bodies, &count);
+        for (int k = 0; k < count; k++) scene->camera_subject[first + k] = true;
+    }
 }
 
 static void build(scene_reader *r, const scene_cursor *root, const scene_bodies *bodies, const double gravity[3], cipc_scene *scene)
@@ -56,6 +71,7 @@ static void build(scene_reader *r, const scene_cursor *root, const scene_bodies 
     scene_read_collisions(r, root, bodies, scene->model);
     scene_read_stitches(r, root, bodies, scene->model);
     scene_read_dirichlet(r, root, bodies, scene->model);
+    read_subject(r, root, bodies, scene);
 }
 
 static void read_scene(scene_reader *r, cipc_scene *scene)
@@ -128,5 +144,6 @@ void cipc_scene_destroy(cipc_scene *scene)
     cipc_free(scene->path);
     cipc_free(scene->title);
     cipc_free(scene->resolved);
+    cipc_free(scene->camera_subject);
     cipc_free(scene);
 }

@@ -1,9 +1,11 @@
-/* Stitches one by one, from a node to a point of an edge; and seams, which sew a row of nodes to another row, node to node. */
+/* Stitches one by one, from a node to a point of an edge; seams that sew a row of nodes to another row, node to node; and seams that sew a side of
+ * a garment's panels to another. */
 #include "scene/seams.h"
 
 #include "scene/alternatives.h"
 #include "scene/lists.h"
 #include "scene/mesh.h"
+#include "scene/panel_sides.h"
 
 enum { STITCHES_MAX = 10000000 };
 
@@ -135,15 +137,60 @@ static void read_seam(seam_reader *s, const scene_cursor *seam)
     cipc_free(b);
 }
 
+/* The body whose side it is; the side. */
+static int read_side(seam_reader *s, const scene_cursor *seam, const char *body_key, const char *side_key, scene_side *side)
+{
+    static const char *const names[] = {"top", "bottom", "left", "right", NULL};
+    int body = read_body(s, seam, body_key);
+    scene_cursor name = scene_member(seam, body_key);
+    *side = (scene_side)scene_choice(s->r, seam, side_key, "side", names, SCENE_REQUIRED);
+    if (scene_mesh_of(s->bodies, body)->panel_count == 0)
+        scene_reject(s->r, &name, CIPC_E_OUT_OF_RANGE, "'%s' has no sides: only gores and pleats have them; sew others by nodes_a and nodes_b",
+                     s->bodies->descriptions[body].name);
+    return body;
+}
+
+/* One node to the nearest point, where both start. Within a body, edges with the node itself are left out: two sides share a corner. */
+static void sew_to_side(seam_reader *s, const scene_cursor *seam, int body_a, int node, int body_b, scene_side side, double stiffness)
+{
+    const scene_body *a = &s->bodies->bodies[body_a], *b = &s->bodies->bodies[body_b];
+    scene_side_point point = scene_nearest_on_side(scene_mesh_of(s->bodies, body_b), b->position, side, a->position + 3 * node, body_a == body_b ? node : -1);
+    if (point.nodes[0] < 0) {
+        scene_reject(s->r, seam, CIPC_E_OUT_OF_RANGE, "node %d has no edge to be sewn to: it belongs to all of the side", node);
+        return;
+    }
+    int first_a = s->model->bodies[body_a].first_node, first_b = s->model->bodies[body_b].first_node;
+    append(s, seam, (cipc_stitching){{first_a + node, first_b + point.nodes[0], first_b + point.nodes[1]}, point.ratio, stiffness});
+}
+
+/* Every node of one side, in all panels, to the nearest point of the other. */
+static void read_side_seam(seam_reader *s, const scene_cursor *seam)
+{
+    static const char *const keys[] = {"name", "body_a", "side_a", "body_b", "side_b", "stiffness", NULL};
+    scene_side side_a, side_b;
+    if (!scene_is_object(s->r, seam, keys)) return;
+    int body_a = read_side(s, seam, "body_a", "side_a", &side_a), body_b = read_side(s, seam, "body_b", "side_b", &side_b);
+    double stiffness = read_stiffness(s, seam);
+    scene_cursor other = scene_member(seam, "side_b");
+    if (body_a == body_b && side_a == side_b) scene_reject(s->r, &other, CIPC_E_OUT_OF_RANGE, "is the side that is to be sewn to it");
+    const cipc_mesh *mesh = scene_mesh_of(s->bodies, body_a);
+    for (int p = 0; p < mesh->panel_count; p++) {
+        for (int i = 0; i < scene_side_length(mesh, side_a) && s->r->status == CIPC_OK; i++)
+            sew_to_side(s, seam, body_a, scene_side_node(mesh, side_a, p, i), body_b, side_b, stiffness);
+    }
+}
+
 static void read_entry(seam_reader *s, const scene_cursor *entry)
 {
-    static const char *const all[] = {"name", "node", "edge", "ratio", "stiffness", "body_a", "nodes_a", "body_b", "nodes_b", NULL};
-    static const char *const ways[] = {"node", "nodes_a", NULL};
+    static const char *const all[] = {"name",   "node",    "edge",   "ratio",  "stiffness", "body_a",
+                                      "body_b", "nodes_a", "nodes_b", "side_a", "side_b",    NULL};
+    static const char *const ways[] = {"node", "nodes_a", "side_a", NULL};
     if (!scene_is_object(s->r, entry, all)) return;
     if (json_object_get(entry->value, "name") != NULL) scene_string(s->r, entry, "name", NULL);
     int way = scene_one_of(s->r, entry, ways);
     if (way == 0) read_stitch(s, entry);
     if (way == 1) read_seam(s, entry);
+    if (way == 2) read_side_seam(s, entry);
 }
 
 void scene_read_stitches(scene_reader *r, const scene_cursor *root, const scene_bodies *bodies, cipc_model *model)

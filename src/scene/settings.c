@@ -70,7 +70,7 @@ static void read_contact(scene_reader *r, const scene_cursor *root, cipc_implici
                                        "slackness",
                                        "ccd_iterations",
                                        NULL};
-    static const char *const ccds[] = {"certified", "additive", "cubic", NULL}; /* in the order of cipc_ccd_method */
+    static const char *const ccds[] = {"certified", "additive", "cubic", "minimum-separation", NULL}; /* in the order of cipc_ccd_method */
     options->ccd.method = options->released ? CIPC_CCD_ADDITIVE : CIPC_CCD_CERTIFIED;
     scene_cursor contact = scene_object_member(r, root, "contact");
     if (!scene_is_object(r, &contact, keys)) return;
@@ -99,7 +99,7 @@ static void read_monitor(scene_reader *r, const scene_cursor *root, cipc_scene *
 
 static void read_output(scene_reader *r, const scene_cursor *root, cipc_scene *scene)
 {
-    static const char *const keys[] = {"obj", "camera", NULL}, *const camera_keys[] = {"azimuth", "elevation", "zoom", NULL};
+    static const char *const keys[] = {"obj", "camera", NULL}, *const camera_keys[] = {"azimuth", "elevation", "zoom", "subject", NULL};
     scene_cursor output = scene_object_member(r, root, "output");
     if (!scene_is_object(r, &output, keys)) return;
     scene->write_obj = scene_boolean(r, &output, "obj", false);

@@ -54,19 +54,28 @@ static void read_rotations(scene_reader *r, const scene_cursor *transform, scene
     }
 }
 
-/* "initial": the mesh after its scale; {"scale": ...}: the mesh after that scale, so that the body starts stretched. A rest mesh is in the
- * units of the mesh itself unless it has a scale of its own. */
+/* A pattern fits its garment only if both are scaled alike. */
+static void check_pattern_scale(scene_reader *r, const scene_cursor *body, const scene_transform *t)
+{
+    scene_cursor rest = scene_member(body, "rest");
+    if (t->scale[0] != t->scale[1] || t->scale[0] != t->scale[2])
+        scene_reject(r, &rest, CIPC_E_OUT_OF_RANGE, "is \"flat\", but a flat pattern has no directions x, y and z to scale by %g, %g and %g: one scale for all",
+                     t->scale[0], t->scale[1], t->scale[2]);
+}
+
+/* "initial": the mesh after its scale; "flat": its flat pattern likewise; {"scale": ...}: the mesh after that scale, so that the body starts
+ * stretched. A rest mesh is in the units of the mesh itself unless it has a scale of its own. */
 static void read_rest(scene_reader *r, const scene_cursor *body, scene_transform *t)
 {
     static const char *const keys[] = {"scale", "mesh", NULL};
-    static const char *const kinds[] = {"initial", NULL};
+    static const char *const kinds[] = {"initial", "flat", NULL};
     static const double one[3] = {1, 1, 1};
     scene_cursor rest = scene_member(body, "rest"), mesh = scene_member(&rest, "mesh");
     if (json_is_object(rest.value)) {
         if (scene_is_object(r, &rest, keys)) read_scale(r, &rest, mesh.value != NULL ? t->scale : one, t->rest_scale);
         return;
     }
-    scene_choice(r, body, "rest", "rest shape", kinds, 0);
+    if (scene_choice(r, body, "rest", "rest shape", kinds, 0) == 1) check_pattern_scale(r, body, t);
     memcpy(t->rest_scale, t->scale, sizeof t->scale);
 }
 

@@ -10,6 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "support/claim.h"
 #include "support/sheet_scene.h"
 
 enum { KINDS = 4, MOST_NODES = 64, STEPS = 30 };
@@ -193,6 +194,8 @@ static const double MOMENTUM = 1e5 * 0x1p-53;
 static void test_every_pair(void **state)
 {
     (void)state;
+    double most_lost = 0, least_gap = INFINITY;
+    int pairings = 0, rises = 0;
     for (int lower = 0; lower < KINDS; lower++)
         for (int upper = 0; upper < KINDS; upper++) {
             static drop d;
@@ -204,8 +207,16 @@ static void test_every_pair(void **state)
             assert_int_equal(d.scene.energy_rises, 0);
             assert_true(d.scene.min_gap > 0);
             printf("  %s on %s: %d contacts, momentum off by %.1e, least gap %.2e m\n", kind_names[upper], kind_names[lower], contacts, lost, d.scene.min_gap);
+            pairings += contacts > 0;
+            rises += d.scene.energy_rises;
+            most_lost = fmax(most_lost, lost);
+            least_gap = fmin(least_gap, d.scene.min_gap);
             sheet_scene_free(&d.scene);
         }
+    claim_figure("C12", "pairings that met", pairings, "1", CLAIM_EQUAL, KINDS * KINDS);
+    claim_figure("C12", "smallest gap - xi at any accepted point", least_gap, "m", CLAIM_MORE, 0);
+    claim_figure("C12", "momentum lost, part of its size, largest", most_lost, "1", CLAIM_AT_MOST, MOMENTUM);
+    claim_figure("C12", "accepted points where energy rose", rises, "1", CLAIM_EQUAL, 0);
 }
 
 /* The mirrored scene has other triangles (they run the other way round) and other roundings; what it does is the same up to what these grow to, and to the tolerance of each step,
@@ -215,6 +226,7 @@ static const double MIRROR = 30 * 1e-6 * 0.005;
 static void test_mirror(void **state)
 {
     (void)state;
+    double most = 0;
     for (int lower = 0; lower < KINDS; lower++)
         for (int upper = 0; upper < KINDS; upper++) {
             static drop d, m;
@@ -228,7 +240,9 @@ static void test_mirror(void **state)
             if (!(off <= MIRROR)) fail_msg("%s on %s: in the mirror %g m off", kind_names[upper], kind_names[lower], off);
             sheet_scene_free(&d.scene);
             sheet_scene_free(&m.scene);
+            most = fmax(most, off);
         }
+    claim_figure("C12", "mirrored scenes off the mirror image, largest", most, "m", CLAIM_AT_MOST, MIRROR);
 }
 
 int main(void)

@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "base/vector.h"
+#include "support/claim.h"
 #include "support/scene_run.h"
 #include "support/validation.h"
 
@@ -90,6 +91,11 @@ static void test_membrane_locking(void **state)
         assert_true(kept[k].stretch - 1 < strain[k]);
     }
     validation_range(scene, "bend radius, membrane 0.01 with cotton's limit over membrane 1", 0, 0.95, kept[0].bend_radius / d[0].bend_radius);
+    claim_figure("C13", "locking: bend radius, membrane 0.1 over 1", d[1].bend_radius / d[0].bend_radius, "1", CLAIM_LESS, 0.95);
+    claim_figure("C13", "a soft membrane alone: largest strain, membrane 0.01 (cotton: 0.0608)", d[2].stretch - 1, "1", CLAIM_MORE, 0.0608);
+    claim_figure("C13", "the cure: bend radius, membrane 0.01 with the limit 1.0608 over membrane 1", kept[0].bend_radius / d[0].bend_radius, "1", CLAIM_LESS, 0.95);
+    claim_figure("C13", "the cure: largest strain, membrane 0.01 with the limit 1.0608", kept[0].stretch - 1, "1", CLAIM_LESS, 0.0608);
+    claim_figure("C13", "the same with the limit 1.001", kept[2].stretch - 1, "1", CLAIM_LESS, 0.001);
 }
 
 int main(void)

@@ -15,6 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "support/claim.h"
 #include "support/golden_program.h"
 
 static scene_request request_of(const char *name)
@@ -313,6 +314,8 @@ static void test_strain_limit_cures_membrane_locking(void **state)
     assert_true(cured.height < stiff.height);    /* drapes, */
     assert_true(cured.stretch < medium.stretch); /* and stretches no more than it may */
     assert_true(soft.stretch > 1.0608 && medium.stretch > 1.0608); /* cotton's limit (docs/scene.md) */
+    claim_figure("C13", "drape: height of the centre of mass, membrane 1, above that of 0.01 with the limit", stiff.height - cured.height, "m", CLAIM_MORE, 0);
+    claim_figure("C13", "drape: largest stretch, membrane 0.1, above that of 0.01 with the limit", medium.stretch - cured.stretch, "1", CLAIM_MORE, 0);
 }
 
 /* Claim C11, its threshold: on a slope of 0.3 rad a plate sticks or slides as mu is above or below tan 0.3, by one part in a hundred. */
@@ -336,9 +339,11 @@ static void test_friction_threshold(void **state)
             const double creep = friction_velocity * (1 - sqrt(1 - tan(slope) / coefficient));
             print_message("creep should be %.6g m/s\n", creep);
             assert_true(fabs(outcome.speed - creep) < 2 * outcome.tolerance);
+            claim_figure("C11 threshold", "sticks at mu = 1.01 tan a: speed of the plate (eps_v = 1e-3)", outcome.speed, "m/s", CLAIM_LESS, friction_velocity);
         } else {
             /* While it is slower than eps_v friction is weaker than mu N, so it is ahead by at most eps_v. */
             assert_true(outcome.speed > sliding && outcome.speed < sliding + friction_velocity);
+            claim_figure("C11 threshold", "slides at mu = 0.99 tan a: speed beyond that of steady sliding", outcome.speed - sliding, "m/s", CLAIM_MORE, 0);
         }
         scene_outcome_free(&outcome);
     }
@@ -353,6 +358,7 @@ static void test_smaller_time_steps_keep_every_invariant(void **state)
         {"time_step=0.01", "steps=40"},
         {"time_step=0.004", "steps=100"},
     };
+    double gap = INFINITY, used = 0;
     for (size_t i = 0; i < sizeof sizes / sizeof sizes[0]; i++) {
         const scene_request request = {.file = "tests/scenes/drape.json", .threads = 1,
                                        .overrides = {sizes[i][0], sizes[i][1], "bodies.cloth.shell.irregular.nodes=150"}};
@@ -361,8 +367,12 @@ static void test_smaller_time_steps_keep_every_invariant(void **state)
         golden_print_figures(sizes[i][0], &outcome);
         assert_true(outcome.max_contacts > 0 && outcome.max_friction > 0);
         assert_true(outcome.last.box_low[1] < -0.158); /* on the ground, which is at -0.16 */
+        gap = fmin(gap, outcome.min_gap);
+        used = fmax(used, outcome.max_stretch_ratio);
         scene_outcome_free(&outcome);
     }
+    claim_figure("C14", "drape to 0.4 s, h = 0.02, 0.01, 0.004 s: smallest gap - xi at any accepted point", gap, "m", CLAIM_MORE, 0);
+    claim_figure("C14", "the same: part of the strain limit used at any accepted point", used, "1", CLAIM_LESS, 1);
 }
 
 int main(int argc, char **argv)

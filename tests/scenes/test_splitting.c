@@ -9,6 +9,7 @@
 #include <math.h>
 #include <stdio.h>
 
+#include "support/claim.h"
 #include "support/sheet_scene.h"
 #include "support/validation.h"
 
@@ -59,6 +60,7 @@ typedef struct cost {
     double apart;     /* m: largest distance, split from coupled, of any coordinate at the end */
     double corner;    /* m: the same of the two free corners alone */
     double used;      /* of the limit, at any accepted point of the split scheme */
+    double coupled_used; /* of the coupled one */
 } cost;
 
 static cost measure(double time_step)
@@ -82,6 +84,7 @@ static cost measure(double time_step)
     c.apart = difference(a, b, 3 * NODES);
     c.corner = fmax(difference(a + 3 * (NODES - 1), b + 3 * (NODES - 1), 3), difference(a + 3 * (NODES - 1 - CELLS), b + 3 * (NODES - 1 - CELLS), 3));
     c.used = split.max_stretch_ratio;
+    c.coupled_used = coupled.max_stretch_ratio;
     sheet_scene_free(&split);
     sheet_scene_free(&coupled);
     sheet_scene_free(&prediction);
@@ -96,6 +99,7 @@ static void test_artefact_shrinks_with_the_step(void **state)
     static const char scene[] = "two-corner hang, limit 1.05, split against coupled (E26)";
     cost c[4];
     char quantity[96];
+    double shrinks = 0, closer = 0, used = 0; /* the worst of the steps */
     for (int k = 0; k < 4; k++) {
         c[k] = measure(steps[k]);
         printf("  h = %g s: prediction beyond the limit by %.3g of it, apart %.3g m, corners %.3g m, limit used up to %.4f\n", steps[k], c[k].violation, c[k].apart, c[k].corner, c[k].used);
@@ -103,7 +107,17 @@ static void test_artefact_shrinks_with_the_step(void **state)
         validation_point("splitting", "largest distance from coupled, m", steps[k], c[k].apart);
         validation_point("splitting", "free corners' distance from coupled, m", steps[k], c[k].corner);
         assert_true(c[k].used < 1);
+        used = fmax(used, c[k].used);
+        if (k > 0) {
+            shrinks = fmax(shrinks, c[k].violation / c[k - 1].violation);
+            closer = fmax(closer, c[k].corner / c[k - 1].corner);
+        }
     }
+    claim_figure("C8", "split: prediction beyond the limit at h = 0.04 s, over limit - 1", c[0].violation, "1", CLAIM_MORE, 1);
+    claim_figure("C8", "the same from one step to the next smaller one (0.04, 0.02, 0.01, 0.004 s), worst", shrinks, "1", CLAIM_LESS, 0.9);
+    claim_figure("C8", "free corners off the coupled ones, from one step to the next smaller one, worst", closer, "1", CLAIM_LESS, 0.75);
+    claim_figure("C8", "coupled: part of the limit used at any accepted point, h = 0.04 s", c[0].coupled_used, "1", CLAIM_LESS, 1);
+    claim_figure("C8", "split, projected: part of the limit used at any accepted point", used, "1", CLAIM_LESS, 1);
     validation_range(scene, "prediction beyond the limit at h = 0.04, over limit - 1", 1, 100, c[0].violation);
     for (int k = 1; k < 4; k++) {
         (void)snprintf(quantity, sizeof quantity, "prediction's violation at h = %g over that at %g", steps[k], steps[k - 1]);

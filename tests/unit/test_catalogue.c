@@ -24,6 +24,16 @@ static cipc_scene *load(const char *file, const char *size)
     return scene;
 }
 
+/* Nodes and steps that `cipc scenes` tells are those of the scene (nodes only where load() has not made the mesh smaller). */
+static void assert_cost(const char *name, const cipc_scene *scene)
+{
+    const cipc_scene_cost *cost = cipc_scene_cost_of(name, scene->size);
+    if (cost == NULL) fail_msg("%s, size %s: no row in src/scene/costs.inc; ci/scene-costs makes it", name, scene->size);
+    if (cost->steps != scene->steps) fail_msg("%s, size %s: %d steps, src/scene/costs.inc says %d", name, scene->size, scene->steps, cost->steps);
+    const bool reduced = strcmp(scene->size, "paper") == 0 && strstr(name, "rotating") != NULL;
+    if (!reduced && cost->nodes != scene->model->node_count) fail_msg("%s, size %s: %d nodes, src/scene/costs.inc says %d", name, scene->size, scene->model->node_count, cost->nodes);
+}
+
 static void test_scenes_load_in_every_size(void **state)
 {
     (void)state;
@@ -37,6 +47,7 @@ static void test_scenes_load_in_every_size(void **state)
             assert_string_equal(scene->title, entries[i].title);
             assert_string_equal(scene->size, sizes[k]);
             assert_true(scene->steps > 0 && scene->model->node_count > 0);
+            assert_cost(entries[i].name, scene);
             cipc_scene_destroy(scene);
         }
     }

@@ -216,6 +216,9 @@ static void test_bad_usage(void **state)
         {{"run", "a.json", "--steps=-1"}, "out of range"},
         {{"run", "a.json", "--steps=99999999999999999999"}, "out of range"},
         {{"run", "a.json", "--threads=0"}, "whole number from 1"},
+        {{"run", "a.json", "--record-ccd="}, "empty"},
+        {{"run", "a.json", "--record-ccd-limit=5"}, "--record-ccd FILE"},
+        {{"run", "a.json", "--record-ccd=a", "--record-ccd-limit=0"}, "whole number from 1"},
         {{"scenes", "drape"}, "'drape'"},
         {{"scenes", "--jsom"}, "the nearest option is --json"},
     };
@@ -459,6 +462,64 @@ static void test_no_convergence(void **state)
     json_decref(summary);
 }
 
+static void assert_file_contains(const path *file, const char *part)
+{
+    size_t size = 0;
+    char *bytes = file_read(file, &size), *text = calloc(size + 1, 1);
+    assert_non_null(text);
+    memcpy(text, bytes, size);
+    free(bytes);
+    if (strstr(text, part) == NULL) {
+        fail_msg("%s: no '%s' in %s", file->text, part, text);
+    }
+    free(text);
+}
+
+/* Verdicts for continuous integration systems, however the run ends; an earlier file never stays for another run's. */
+static void test_junit(void **state)
+{
+    const fixture *f = *state;
+    const path file = path_in(&f->folder, "verdicts.xml");
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--junit", file.text, NULL).exit_status, 0);
+    assert_file_contains(&file, "<testsuite name=\"scene\" tests=\"9\" failures=\"0\" errors=\"0\" skipped=\"2\">");
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "newton.iterations=1", "--set", "newton.tolerance=1e-12", "--junit", file.text, NULL).exit_status, 1);
+    assert_file_contains(&file, "<error message=\"step 0: CIPC-1003");
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "bodies.cloth.densty=3", "--junit", file.text, NULL).exit_status, 2);
+    assert_file_contains(&file, "densty");
+    file_write(&f->scene, crossing, strlen(crossing));
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--junit", file.text, NULL).exit_status, 2);
+    assert_file_contains(&file, "CIPC-2009");
+    file_write(&f->scene, falling, strlen(falling));
+    const outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--junit", "/no/such/folder/v.xml", NULL);
+    assert_message(&o, 1, "CIPC-1002", "/no/such/folder/v.xml");
+    assert_int_equal(cipc(f, "verify", "distance", "--samples", "400", "--quiet", "--junit", file.text, NULL).exit_status, 3); /* too few to reach every branch */
+    assert_file_contains(&file, "<testsuite name=\"distance\"");
+    assert_file_contains(&file, "<failure message=");
+    assert_int_equal(cipc(f, "verify", "distanse", "--junit", file.text, NULL).exit_status, 2);
+    assert_file_contains(&file, "errors=\"1\"");
+}
+
+/* A port that answers one query right, one wrong, one not at all, and a question that nobody asked. */
+static void test_junit_of_judge(void **state)
+{
+    const fixture *f = *state;
+    const path file = path_in(&f->folder, "verdicts.xml"), vectors = path_in(&f->folder, "v.jsonl"), answers = path_in(&f->folder, "a.jsonl");
+    static const char asked[] = "{\"id\":1,\"fn\":\"intersect_edge_triangle\",\"x\":[0,0,-1,0,0,1,-1,-1,0,2,-1,0,-1,2,0],\"want\":{\"intersects\":true}}\n"
+                                "{\"id\":2,\"fn\":\"intersect_edge_triangle\",\"x\":[0,0,-1,0,0,1,-1,-1,0,2,-1,0,-1,2,0],\"want\":{\"intersects\":true}}\n"
+                                "{\"id\":3,\"fn\":\"intersect_edge_triangle\",\"x\":[0,0,-1,0,0,1,-1,-1,0,2,-1,0,-1,2,0],\"want\":{\"intersects\":true}}\n";
+    static const char answered[] = "{\"id\":1,\"fn\":\"intersect_edge_triangle\",\"got\":{\"intersects\":true}}\n"
+                                   "{\"id\":2,\"fn\":\"intersect_edge_triangle\",\"got\":{\"intersects\":false}}\n"
+                                   "{\"id\":9,\"fn\":\"intersect_edge_triangle\",\"got\":{\"intersects\":true}}\n";
+    file_write(&vectors, asked, strlen(asked));
+    file_write(&answers, answered, strlen(answered));
+    assert_int_equal(cipc(f, "judge", vectors.text, answers.text, "--junit", file.text, NULL).exit_status, 3);
+    assert_file_contains(&file, "<testsuite name=\"cipc judge\" tests=\"2\" failures=\"2\"");
+    assert_file_contains(&file, "2 answers are wrong or missing");
+    assert_file_contains(&file, "answer no question: 1");
+    assert_int_equal(cipc(f, "judge", "/no/such/vectors", "--junit", file.text, NULL).exit_status, 2);
+    assert_file_contains(&file, "errors=\"1\"");
+}
+
 static void test_unwritable_folder(void **state)
 {
     const fixture *f = *state;
@@ -646,6 +707,65 @@ static void test_killed_run(void **state)
     }
 }
 
+/* A record in the output folder, which the run makes; what cipc eval takes. A place that cannot be written to is refused before anything else is touched; a resumed run
+ * records its own steps. */
+static void test_recorded_queries(void **state)
+{
+    const fixture *f = *state;
+    const path record = path_in(&f->out, "ccd.jsonl"), absent = path_in(&f->out, "absent/ccd.jsonl"), stats = path_in(&f->out, "stats.jsonl");
+    outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--record-ccd", record.text, "--record-ccd-limit", "50", NULL);
+    assert_int_equal(o.exit_status, 0);
+    char *bytes = file_read(&record, NULL), *line = strtok(bytes, "\n");
+    int count = 0;
+    for (; line != NULL; line = strtok(NULL, "\n"), count++) assert_non_null(strstr(line, "\"fn\":\"toi_"));
+    free(bytes);
+    assert_true(count > 10 && count <= 50);
+    size_t before, after;
+    free(file_read(&stats, &before));
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--record-ccd", absent.text, NULL);
+    assert_message(&o, 1, "CIPC-1002", "absent");
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--record-ccd", f->folder.text, NULL);
+    assert_message(&o, 1, "CIPC-1002", "it is a folder");
+    free(file_read(&stats, &after));
+    assert_int_equal(before, after);
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--resume", "--record-ccd", record.text, NULL); /* nothing left to do, nothing asked */
+    assert_int_equal(o.exit_status, 0);
+    assert_int_equal(count_lines(&record), 0);
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--resume", "--steps=7", "--record-ccd", record.text, NULL);
+    assert_int_equal(o.exit_status, 0);
+    bytes = file_read(&record, NULL);
+    assert_non_null(strstr(bytes, "\"step\":7"));
+    assert_null(strstr(bytes, "\"step\":5"));
+    free(bytes);
+}
+
+/* The comparison of a record; a file that is not one. */
+static void test_compared_queries(void **state)
+{
+    const fixture *f = *state;
+    const path record = path_in(&f->folder, "ccd.jsonl"), report = path_in(&f->folder, "ccd.json"), empty = path_in(&f->folder, "empty.jsonl");
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--record-ccd", record.text, NULL).exit_status, 0);
+    outcome o = cipc(f, "ccd", record.text, record.text, "--json", report.text, NULL);
+    assert_int_equal(o.exit_status, 0);
+    assert_true(o.err[0] == '\0' && strstr(o.out, "minimum-separation") != NULL && strstr(o.out, "\nccd ") != NULL);
+    json_t *json = json_load_file(report.text, 0, NULL);
+    assert_string_equal(text_of(json, "verdict"), "passed");
+    const json_t *file = json_array_get(json_object_get(json, "files"), 1), *certified = json_array_get(json_object_get(file, "methods"), 0);
+    assert_int_equal(json_integer_value(json_object_get(file, "queries")), count_lines(&record));
+    assert_string_equal(text_of(certified, "method"), "certified");
+    assert_int_equal(json_integer_value(json_object_get(certified, "usable")), json_integer_value(json_object_get(file, "judged")));
+    json_decref(json);
+    file_write(&empty, "", 0);
+    o = cipc(f, "ccd", empty.text, NULL);
+    assert_message(&o, 2, "CIPC-2013", "empty");
+    o = cipc(f, "ccd", "/no/such/file.jsonl", NULL);
+    assert_message(&o, 2, "CIPC-2007", "--record-ccd");
+    o = cipc(f, "ccd", f->scene.text, NULL);
+    assert_message(&o, 2, "CIPC-2013", "scene.json");
+    o = cipc(f, "ccd", NULL);
+    assert_message(&o, 2, "CIPC-2001", "no file");
+}
+
 static void test_resume_refusals(void **state)
 {
     const fixture *f = *state;
@@ -674,12 +794,16 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_run_without_outer_forces, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_new_run_removes_stale_results, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_no_convergence, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_junit, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_junit_of_judge, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_unwritable_folder, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_no_space, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_full_standard_output, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_progress_on_a_terminal, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_interrupted_run, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_killed_run, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_recorded_queries, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_compared_queries, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_resume_refusals, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

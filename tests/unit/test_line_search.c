@@ -39,8 +39,8 @@ typedef struct search {
     cipc_status status;
 } search;
 
-/* Along p, the same for the three nodes of the triangle. */
-static search try_search(sheet_scene *scene, const double p[3])
+/* Along p, the same for the three nodes of the triangle; noise > 0: in place of the rounding bound. */
+static search try_noisy_search(sheet_scene *scene, const double p[3], double noise)
 {
     cipc_stepper *s = scene->stepper;
     search r = {.alpha = NAN};
@@ -50,8 +50,14 @@ static search try_search(sheet_scene *scene, const double p[3])
     for (int i = 0; i < 9; i++) r.slope += s->gradient[i] * s->direction[i];
     memcpy(r.start, s->x, sizeof r.start);
     r.before = r.after = energy_at(scene, s->x, &s->contacts);
+    if (noise > 0) s->noise = noise;
     r.status = cipc_line_search(s, 4, r.slope, &r.after, &r.alpha, &scene->error);
     return r;
+}
+
+static search try_search(sheet_scene *scene, const double p[3])
+{
+    return try_noisy_search(scene, p, 0);
 }
 
 static const double down[3] = {0, -1, 0};
@@ -89,6 +95,24 @@ static void test_overshoot(void **state)
         assert_true(r.alpha == (released ? 0.5 : 0.25));
         assert_int_equal(scene.report.line_search_halvings, released ? 1 : 2);
         assert_true(fabs(r.after - (released ? r.before : 0)) <= 1e-15 * r.before);
+        sheet_scene_free(&scene);
+    }
+}
+
+/* The same way, with so much noise that every point passes by its value: the slope there, 16 alpha - 4 in units of 2 E_0, decides, and wants 1/4 again. */
+static void test_overshoot_within_the_noise(void **state)
+{
+    (void)state;
+    for (int released = 0; released < 2; released++) {
+        sheet_scene scene;
+        const double p[3] = {0, -4, 0};
+        sheet_scene_init(&scene);
+        scene.options.released = released;
+        make(&scene, -1, false, true);
+        search r = try_noisy_search(&scene, p, 1e6);
+        assert_int_equal(r.status, CIPC_OK);
+        assert_true(r.alpha == (released ? 1 : 0.25));
+        assert_true(scene.stepper->noise == 1e6 && fabs(r.after - (released ? 9 * r.before : 0)) <= 1e-14 * r.before);
         sheet_scene_free(&scene);
     }
 }
@@ -250,6 +274,7 @@ static void test_out_of_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_overshoot_within_the_noise),
         cmocka_unit_test(test_full_step),    cmocka_unit_test(test_overshoot),       cmocka_unit_test(test_uphill),
         cmocka_unit_test(test_contact),      cmocka_unit_test(test_contacts_follow), cmocka_unit_test(test_infinite_energy),
         cmocka_unit_test(test_strain_limit), cmocka_unit_test(test_monitor),         cmocka_unit_test(test_out_of_memory),

@@ -114,12 +114,38 @@ static void test_bad_arguments_and_no_memory(void **state)
     cipc_mesh_free(&mesh);
 }
 
+/* The upper ends stay, the lower ones move up by different lengths of at most what may be lost, and segments stay equal. */
+static void test_shortened_rods(void **state)
+{
+    (void)state;
+    enum { RODS = 100, SEGMENTS = 4 };
+    const double spacing[3] = {1, 1, 1}, length = 0.2, shorten = 0.04;
+    cipc_mesh whole = rods(10, 1, 10, spacing, length, SEGMENTS, false), cut = rods(10, 1, 10, spacing, length, SEGMENTS, false);
+    assert_int_equal(cipc_mesh_shorten_rods(&cut, length, SEGMENTS, shorten, 3, NULL), CIPC_OK);
+    double sum = 0, least = 1, most = 0;
+    for (int i = 0; i < RODS; i++) {
+        const double *w = whole.nodes + 3 * i * (SEGMENTS + 1), *c = cut.nodes + 3 * i * (SEGMENTS + 1), lost = c[1] - w[1];
+        assert_true(c[0] == w[0] && c[2] == w[2] && c[3 * SEGMENTS + 1] == w[3 * SEGMENTS + 1]);
+        for (int s = 0; s < SEGMENTS; s++) assert_true(fabs(c[3 * s + 4] - c[3 * s + 1] - (length - lost) / SEGMENTS) < 1e-16);
+        sum += lost;
+        least = fmin(least, lost);
+        most = fmax(most, lost);
+    }
+    assert_true(least >= 0 && most < shorten && least < 0.1 * shorten && most > 0.9 * shorten);
+    assert_true(fabs(sum / RODS - shorten / 2) < 4 * shorten / sqrt(12.0 * RODS)); /* four standard errors of the mean of RODS uniform numbers */
+    assert_int_equal(cipc_mesh_shorten_rods(&cut, length, SEGMENTS, -1e-9, 3, NULL), CIPC_E_OUT_OF_RANGE);
+    assert_int_equal(cipc_mesh_shorten_rods(&cut, length, SEGMENTS, (double)NAN, 3, NULL), CIPC_E_OUT_OF_RANGE);
+    cipc_mesh_free(&whole);
+    cipc_mesh_free(&cut);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_order_and_places),
         cmocka_unit_test(test_round_bundles),
         cmocka_unit_test(test_round_is_an_ellipse_of_unequal_sides),
+        cmocka_unit_test(test_shortened_rods),
         cmocka_unit_test(test_bad_arguments_and_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

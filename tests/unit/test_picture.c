@@ -138,6 +138,28 @@ static void test_the_camera_leaves_room_for_diameters(void **state)
     folder_remove(&folder);
 }
 
+/* A body chosen as the subject is drawn larger than among all that move. */
+static void test_the_chosen_subject_fills_the_picture(void **state)
+{
+    (void)state;
+    const path folder = folder_make(), h5 = path_in(&folder, "t.h5");
+    sample_run run = every_kind_create_all();
+    write_trajectory(&h5, &run, 1);
+    bool subject[8] = {false};
+    assert_true(run.model->body_count > 1 && run.model->body_count <= 8);
+    subject[0] = true;
+    cipc_picture_options options = small_options(1, 1);
+    cairo_surface_t *all = sheet(&folder, &h5, run.model, &options);
+    options.subject = subject;
+    cairo_surface_t *one = sheet(&folder, &h5, run.model, &options);
+    const int small = pixels_of(all, MARGIN, MARGIN, cipc_body_colour(run.model, 0)), large = pixels_of(one, MARGIN, MARGIN, cipc_body_colour(run.model, 0));
+    assert_true(small > 0 && large > 2 * small);
+    cairo_surface_destroy(all);
+    cairo_surface_destroy(one);
+    sample_run_destroy(&run);
+    folder_remove(&folder);
+}
+
 /* Fewer frames than tiles: no empty tiles. One frame: one tile. */
 static void test_few_frames(void **state)
 {
@@ -215,6 +237,7 @@ int main(void)
         cmocka_unit_test(test_every_tile_shows_every_body),
         cmocka_unit_test(test_every_kind_is_shown),
         cmocka_unit_test(test_the_camera_leaves_room_for_diameters),
+        cmocka_unit_test(test_the_chosen_subject_fills_the_picture),
         cmocka_unit_test(test_few_frames),
         cmocka_unit_test(test_poor_positions),
         cmocka_unit_test(test_errors),

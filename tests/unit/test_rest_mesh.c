@@ -38,7 +38,9 @@ static cipc_status load(const trial *t, const char *body, cipc_scene **scene, ci
 {
     char text[1024];
     snprintf(text, sizeof text,
-             "{\"time_step\": 1, \"steps\": 1, \"bodies\": [{\"name\": \"a\", \"material\": \"wool\", \"shell\": {\"mesh\": \"drape.obj\"}, %s}]}", body);
+             "{\"time_step\": 1, \"steps\": 1, \"bodies\": [{\"name\": \"a\", \"material\": \"wool\", \"shell\": {\"mesh\": "
+             "\"drape.obj\"}, %s}]}",
+             body);
     char *path = write_file(t->folder, "s.json", text, strlen(text));
     cipc_status status = cipc_scene_load(scene, path, 0, NULL, error);
     free(path);
@@ -62,7 +64,8 @@ static void test_the_rest_shape_is_the_other_mesh(void **state)
         cipc_scene *scene, *again;
         cipc_error error;
         if (load(&t, cases[i].body, &scene, &error) != CIPC_OK) fail_msg("%s: %s", error.place, error.what);
-        assert_true(scene->model->rest[0] == 5 * cases[i].scale && scene->model->rest[3] == 7 * cases[i].scale && scene->model->rest[1] == 0);
+        assert_true(scene->model->rest[0] == 5 * cases[i].scale && scene->model->rest[3] == 7 * cases[i].scale &&
+                    scene->model->rest[1] == 0);
         assert_true(scene->state->position[0] == 0);
         again = accept_scene(scene->resolved, NULL);
         assert_memory_equal(scene->model->rest, again->model->rest, 12 * sizeof(double));
@@ -92,6 +95,37 @@ static void test_other_meshes_are_refused(void **state)
     refuse("v 0 0 0\nv 1 0 0\nv 0 0 1\nv 1 0 1\nf 1 3 2\nf 2 4 3\n", CIPC_E_BAD_MESH, "must be the same nodes in the same order");
 }
 
+#define TUBE "{\"gores\": {\"top\": 0.1, \"bottom\": 0.2, \"height\": 0.3, \"cells\": [4, 1]}}"
+#define GARMENT(rest, transform)                                                                                                           \
+    "{\"time_step\": 1, \"steps\": 1, \"bodies\": [{\"name\": \"a\", \"material\": \"wool\", \"shell\": " TUBE ", " rest                   \
+    ", \"transform\": " transform "}]}"
+
+/* A garment that starts turned and moved, and larger, has its pattern as large for its rest shape, and so starts without stretch. */
+static void test_flat_is_the_pattern(void **state)
+{
+    (void)state;
+    const cipc_panel_ring ring = {.panels = 1, .down = 1, .top = 0.1, .bottom = 0.2, .height = 0.3};
+    cipc_mesh mesh;
+    assert_int_equal(cipc_mesh_gores(&mesh, &ring, 4, NULL), CIPC_OK);
+    cipc_scene *scene =
+        accept_scene(GARMENT("\"rest\": \"flat\"", "{\"scale\": 2, \"rotate\": {\"angle\": 1}, \"translate\": [0, 1, 0]}"), NULL);
+    cipc_scene *again = accept_scene(scene->resolved, NULL);
+    for (int i = 0; i < 30; i++) assert_true(scene->model->rest[i] == 2 * mesh.pattern[i]);
+    assert_memory_equal(scene->model->rest, again->model->rest, 30 * sizeof(double));
+    assert_memory_equal(scene->state->position, again->state->position, 30 * sizeof(double));
+    cipc_mesh_free(&mesh);
+    cipc_scene_destroy(scene);
+    cipc_scene_destroy(again);
+}
+
+static void test_rejections_of_flat(void **state)
+{
+    (void)state;
+    reject_around("", "@\"rest\": \"flat\",", CIPC_E_OUT_OF_RANGE, "bodies.cloth.rest", "only gores, pleats and ribbons have one");
+    reject_around("", "@\"rest\": \"flet\",", CIPC_E_OUT_OF_RANGE, "bodies.cloth.rest", "flat");
+    reject_scene(GARMENT("@\"rest\": \"flat\"", "{\"scale\": [1, 1, 2]}"), NULL, CIPC_E_OUT_OF_RANGE, "bodies.a.rest", "one scale for all");
+}
+
 static void test_rejections(void **state)
 {
     (void)state;
@@ -105,6 +139,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_the_rest_shape_is_the_other_mesh),
         cmocka_unit_test(test_other_meshes_are_refused),
+        cmocka_unit_test(test_flat_is_the_pattern),
+        cmocka_unit_test(test_rejections_of_flat),
         cmocka_unit_test(test_rejections),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -16,7 +16,7 @@ static cipc_mesh accept(const char *text)
     cipc_mesh mesh;
     scene_reader r = reader_of(text);
     scene_cursor root = scene_root(r.root);
-    scene_read_rods(&r, &root, &mesh);
+    scene_read_rods(&r, &root, 1, &mesh);
     if (r.status != CIPC_OK) fail_msg("%s: %s", r.error.place, r.error.what);
     scene_reader_free(&r);
     return mesh;
@@ -27,7 +27,7 @@ static void refuse(const char *text, cipc_status status, const char *place, cons
     cipc_mesh mesh;
     scene_reader r = reader_of(text);
     scene_cursor root = scene_root(r.root);
-    scene_read_rods(&r, &root, &mesh);
+    scene_read_rods(&r, &root, 1, &mesh);
     assert_rejection(&r, status, place, what);
     assert_null(mesh.nodes);
     scene_reader_free(&r);
@@ -54,6 +54,9 @@ static void test_arcs_grids_and_nets(void **state)
     assert_same_mesh(&got, &want, cipc_mesh_rods(&want, (int[]){3, 1, 4}, (double[]){0.5, 1, 0.25}, 0.7, 2, false, NULL));
     got = accept("{\"grid\": {\"count\": [3, 1, 4], \"spacing\": [0.5, 1, 0.25], \"length\": 0.7, \"segments\": 2, \"round\": true}}");
     assert_same_mesh(&got, &want, cipc_mesh_rods(&want, (int[]){3, 1, 4}, (double[]){0.5, 1, 0.25}, 0.7, 2, true, NULL));
+    got = accept("{\"grid\": {\"count\": [3, 1, 4], \"spacing\": [0.5, 1, 0.25], \"length\": 0.7, \"segments\": 2, \"shorten\": 0.2, \"seed\": 5}}");
+    cipc_mesh_rods(&want, (int[]){3, 1, 4}, (double[]){0.5, 1, 0.25}, 0.7, 2, false, NULL);
+    assert_same_mesh(&got, &want, cipc_mesh_shorten_rods(&want, 0.7, 2, 0.2, 5, NULL));
     got = accept("{\"net\": {\"size\": 1, \"rods\": 3, \"segments\": 8, \"lift\": 0.01}}");
     assert_same_mesh(&got, &want, cipc_mesh_net(&want, 1, 3, 8, 0.01, NULL));
 }
@@ -80,6 +83,8 @@ static void test_rejections(void **state)
            "t.json:1:46 grid.spacing.1", "greater than 0");
     refuse("{\"grid\": {\"count\": [1, 1, 1], \"spacing\": [1, 1, 1], \"segments\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 grid.length",
            "missing");
+    refuse("{\"grid\": {\"count\": [1, 1, 1], \"spacing\": [1, 1, 1], \"length\": 1, \"segments\": 1, \"shorten\": 1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:2 grid",
+           "rods of 1 m that lose up to 1 m");
     refuse("{\"net\": {\"size\": 1, \"rods\": 0, \"segments\": 8, \"lift\": 0.01}}", CIPC_E_OUT_OF_RANGE, "t.json:1:21 net.rods",
            "at least 1");
     refuse("{\"net\": {\"size\": 1, \"rods\": 2, \"segments\": 8, \"lift\": -1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:47 net.lift", "at least 0");

@@ -67,6 +67,9 @@ static void test_everything_can_be_set(void **state)
     s = accept_around("\"integrator\": {\"alpha\": 1, \"beta\": 0.75, \"gamma\": 0.25},");
     assert_true(s->options.integrator.beta == 0.75 && s->options.integrator.gamma == 0.25);
     cipc_scene_destroy(s);
+    s = accept_around("\"contact\": {\"ccd\": \"minimum-separation\"},");
+    assert_int_equal(s->options.ccd.method, CIPC_CCD_MINIMUM_SEPARATION);
+    cipc_scene_destroy(s);
 }
 
 /* "released" changes defaults; what the scene says itself stays. */

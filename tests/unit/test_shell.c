@@ -65,6 +65,72 @@ static void test_round_shells(void **state)
     assert_same_mesh(&got, &want, cipc_mesh_revolution(&want, 3, profile, 12, NULL));
     got = read_mesh("{\"cylinder\": {\"radius\": 0.25, \"length\": 1, \"around\": 8, \"along\": 5}}");
     assert_same_mesh(&got, &want, cipc_mesh_cylinder(&want, 0.25, 1, 8, 5, NULL));
+    got = read_mesh("{\"capsule\": {\"radii\": [0.1, 0.2], \"length\": 0.5, \"around\": 8, \"along\": 5}}");
+    assert_same_mesh(&got, &want, cipc_mesh_capsule(&want, (const double[2]){0.1, 0.2}, 0.5, 8, 5, NULL));
+}
+
+/* Panels default to one; pattern and size of the panels come along. */
+static void test_garments(void **state)
+{
+    (void)state;
+    const cipc_panel_ring skirt = {.panels = 3, .down = 5, .top = 0.1, .bottom = 0.3, .height = 0.5},
+                          tube = {.panels = 1, .down = 2, .top = 0.2, .bottom = 0.25, .height = 0.4};
+    const cipc_pleating pleating = {.count = 8, .forward = 9, .back = 4, .depth = 0.1, .gap = 0.01};
+    cipc_mesh want, got = read_mesh("{\"gores\": {\"panels\": 3, \"top\": 0.1, \"bottom\": 0.3, \"height\": 0.5, \"cells\": [4, 5]}}");
+    assert_true(got.pattern != NULL && got.panel_count == 3 && got.panel_columns == 5 && got.panel_rows == 6);
+    assert_same_mesh(&got, &want, cipc_mesh_gores(&want, &skirt, 4, NULL));
+    got = read_mesh("{\"pleats\": {\"top\": 0.2, \"bottom\": 0.25, \"height\": 0.4, \"count\": 8, \"depth\": 0.1, \"gap\": 0.01, "
+                    "\"cells\": [9, 4, 2]}}");
+    assert_true(got.pattern != NULL && got.panel_count == 1 && got.panel_columns == 8 * 15 + 1 && got.panel_rows == 3);
+    assert_same_mesh(&got, &want, cipc_mesh_pleats(&want, &tube, &pleating, NULL));
+}
+
+static void test_rejections_of_garments(void **state)
+{
+    (void)state;
+    assert_refused("{\"capsule\": {\"radii\": [1], \"length\": 1, \"around\": 8, \"along\": 5}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:14 capsule.radii", "must have 2");
+    assert_refused("{\"capsule\": {\"radii\": [1, 1], \"length\": 1, \"around\": 8, \"along\": 1}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:57 capsule.along", "at least 2");
+    assert_refused("{\"capsule\": {\"radii\": [3, 1], \"length\": 1, \"around\": 8, \"along\": 5}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:2 capsule", "one holds the other");
+    assert_refused("{\"capsule\": {\"radius\": 1}}", CIPC_E_UNKNOWN_KEY, "t.json:1:14 capsule.radius", "'radii'");
+    assert_refused("{\"gores\": {\"top\": 1, \"bottom\": 1, \"height\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 gores.cells", "2 integers");
+    assert_refused("{\"gores\": {\"panels\": 0, \"top\": 1, \"bottom\": 1, \"height\": 1, \"cells\": [4, 1]}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:12 gores.panels", "at least 1");
+    assert_refused("{\"gores\": {\"top\": 1, \"bottom\": 1, \"height\": 1, \"cells\": [2, 1]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:2 gores",
+                   "3 are needed");
+    assert_refused("{\"gores\": {\"top\": 1, \"height\": 1, \"cells\": [4, 1]}}", CIPC_E_MISSING_KEY, "t.json:1:2 gores.bottom", "missing");
+    assert_refused("{\"gores\": {\"depth\": 1}}", CIPC_E_UNKNOWN_KEY, "t.json:1:12 gores.depth", "nearest");
+    assert_refused("{\"pleats\": {\"top\": 1, \"bottom\": 1, \"height\": 1, \"count\": 2}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:49 pleats.count", "at least 3");
+    assert_refused(
+        "{\"pleats\": {\"top\": 1, \"bottom\": 1, \"height\": 1, \"count\": 8, \"depth\": 0.1, \"gap\": 0, \"cells\": [9, 4, 2]}}",
+        CIPC_E_OUT_OF_RANGE, "t.json:1:75 pleats.gap", "greater than 0");
+    assert_refused(
+        "{\"pleats\": {\"top\": 1, \"bottom\": 1, \"height\": 1, \"count\": 8, \"depth\": 0.1, \"gap\": 0.01, \"cells\": [9, 4]}}",
+        CIPC_E_OUT_OF_RANGE, "t.json:1:88 pleats.cells", "must have 3");
+    assert_refused(
+        "{\"pleats\": {\"top\": 1, \"bottom\": 1, \"height\": 1, \"count\": 8, \"depth\": 0.1, \"gap\": 0.01, \"cells\": [1, 1, 2]}}",
+        CIPC_E_OUT_OF_RANGE, "t.json:1:2 pleats", "more cells forward and back");
+}
+
+/* Faces up unless told otherwise. */
+static void test_ribbons(void **state)
+{
+    (void)state;
+    static const double points[3][3] = {{0, 0, 0}, {0.5, 0.25, 0}, {1, 0, 0}}, normals[3][3] = {{0, 1, 0}, {0, 0, 1}, {0, -1, 0}};
+    cipc_ribbon ribbon = {.count = 3, .points = points, .normal = {0, 1, 0}, .width = 0.25, .along = 6, .across = 2};
+    cipc_mesh want, got = read_mesh("{\"ribbon\": {\"points\": [[0, 0, 0], [0.5, 0.25, 0], [1, 0, 0]], \"width\": 0.25, \"along\": 6, \"across\": 2}}");
+    assert_same_mesh(&got, &want, cipc_mesh_ribbon(&want, &ribbon, NULL));
+    ribbon.normal[1] = 0;
+    ribbon.normal[2] = 2;
+    got = read_mesh("{\"ribbon\": {\"points\": [[0, 0, 0], [0.5, 0.25, 0], [1, 0, 0]], \"width\": 0.25, \"along\": 6, \"across\": 2, \"normal\": [0, 0, 2]}}");
+    assert_same_mesh(&got, &want, cipc_mesh_ribbon(&want, &ribbon, NULL));
+    ribbon.normals = normals;
+    got = read_mesh("{\"ribbon\": {\"points\": [[0, 0, 0], [0.5, 0.25, 0], [1, 0, 0]], \"width\": 0.25, \"along\": 6, \"across\": 2,"
+                    " \"normals\": [[0, 1, 0], [0, 0, 1], [0, -1, 0]]}}");
+    assert_same_mesh(&got, &want, cipc_mesh_ribbon(&want, &ribbon, NULL));
 }
 
 /* Without a seed of its own a sheet takes the scene's, and the tree says so. */
@@ -104,14 +170,24 @@ static void test_rejections(void **state)
     assert_refused("{\"icosphere\": {\"radius\": -1, \"subdivisions\": 1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:16 icosphere.radius",
                    "greater than 0");
     assert_refused("{\"icosphere\": {\"radius\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 icosphere.subdivisions", "missing");
-    assert_refused("{\"revolution\": {\"profile\": [[1, 0]], \"sectors\": 3}}", CIPC_E_OUT_OF_RANGE, "t.json:1:17 revolution.profile", "at least 2");
-    assert_refused("{\"revolution\": {\"profile\": [[1, 0], [1, 1, 0]], \"sectors\": 3}}", CIPC_E_OUT_OF_RANGE, "t.json:1:37 revolution.profile.1",
-                   "must have 2");
-    assert_refused("{\"revolution\": {\"profile\": [[1, 0], [1, 1]], \"sectors\": 2}}", CIPC_E_OUT_OF_RANGE, "t.json:1:46 revolution.sectors",
-                   "at least 3");
-    assert_refused("{\"cylinder\": {\"radius\": 1, \"length\": 1, \"around\": 2, \"along\": 1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:41 cylinder.around",
-                   "at least 3");
-    assert_refused("{\"cylinder\": {\"radius\": 1, \"around\": 3, \"along\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 cylinder.length", "missing");
+    assert_refused("{\"revolution\": {\"profile\": [[1, 0]], \"sectors\": 3}}", CIPC_E_OUT_OF_RANGE, "t.json:1:17 revolution.profile",
+                   "at least 2");
+    assert_refused("{\"revolution\": {\"profile\": [[1, 0], [1, 1, 0]], \"sectors\": 3}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:37 revolution.profile.1", "must have 2");
+    assert_refused("{\"revolution\": {\"profile\": [[1, 0], [1, 1]], \"sectors\": 2}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:46 revolution.sectors", "at least 3");
+    assert_refused("{\"cylinder\": {\"radius\": 1, \"length\": 1, \"around\": 2, \"along\": 1}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:41 cylinder.around", "at least 3");
+    assert_refused("{\"cylinder\": {\"radius\": 1, \"around\": 3, \"along\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 cylinder.length",
+                   "missing");
+    assert_refused("{\"ribbon\": {\"points\": [[0, 0, 0]], \"width\": 1, \"along\": 1, \"across\": 1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:13 ribbon.points", "at least 2");
+    assert_refused("{\"ribbon\": {\"points\": [[0, 0, 0], [1, 0, 0]], \"width\": 0, \"along\": 1, \"across\": 1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:47 ribbon.width", "greater than 0");
+    assert_refused("{\"ribbon\": {\"points\": [[0, 0, 0], [1, 0, 0]], \"width\": 1, \"along\": 1, \"across\": 1, \"normal\": [1, 0, 0]}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:2 ribbon", "no direction");
+    assert_refused("{\"ribbon\": {\"points\": [[0, 0, 0], [1, 0, 0]], \"width\": 1, \"along\": 1, \"across\": 1, \"normals\": [[0, 1, 0]]}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:84 ribbon.normals", "must have 2");
+    assert_refused("{\"ribbon\": {\"points\": [[0, 0, 0], [1, 0, 0]], \"width\": 1, \"along\": 1, \"across\": 1, \"normal\": [0, 1, 0], \"normals\": [[0, 1, 0], [0, 1, 0]]}}",
+                   CIPC_E_OUT_OF_RANGE, "t.json:1:84 ribbon.normal", "beside");
     assert_refused("{\"mesh\": 1}", CIPC_E_WRONG_TYPE, "t.json:1:2 mesh", "a string");
     assert_refused("{\"mesh\": \"/nowhere/at/all.obj\"}", CIPC_E_MISSING_FILE, "t.json:1:2 mesh", "'/nowhere/at/all.obj' cannot be opened");
     assert_refused("[]", CIPC_E_WRONG_TYPE, "t.json:1:1", "an object");
@@ -155,6 +231,9 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_generators),
         cmocka_unit_test(test_round_shells),
+        cmocka_unit_test(test_garments),
+        cmocka_unit_test(test_rejections_of_garments),
+        cmocka_unit_test(test_ribbons),
         cmocka_unit_test(test_the_seed_of_the_scene),
         cmocka_unit_test(test_rejections),
         cmocka_unit_test(test_files),

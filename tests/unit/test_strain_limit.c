@@ -8,8 +8,10 @@
 #include <float.h>
 #include <math.h>
 #include <mpfr.h>
+#include <stdbool.h>
 
 #include "cipc/energy.h"
+#include "support/claim.h"
 
 enum { SIZE = 9, BITS = 200 };
 
@@ -112,6 +114,7 @@ static void test_nothing_below_the_threshold(void **state)
     double t = 1e-8, width = 0.0408;
     cipc_strain_limit_barrier(1.02 + t * width, 1.02 + width, 1.02, b);
     assert_relative(b[2] * width * width, 6 * t, 1e-6); /* sigma - shat has lost 8 digits */
+    claim_figure("C5", "b'' just above the threshold off 6 t/(s - shat)^2, t = 1e-8, relative", fabs(b[2] * width * width / (6 * t) - 1), "1", CLAIM_AT_MOST, 1e-6);
 }
 
 static void test_value_sums_the_stretches_and_ends_at_the_limit(void **state)
@@ -209,6 +212,13 @@ static void test_inactive_triangles_are_zero(void **state)
     cipc_strain_limit_hessian(x, &p, H);
     for (int i = 0; i < SIZE; i++) assert_true(g[i] == 0);
     for (int i = 0; i < SIZE * SIZE; i++) assert_true(H[i] == 0);
+    double largest = 0;
+    cipc_strain_limit at_rest = limit_of(1.0608, 1);
+    cipc_strain_limit_gradient(rest, &at_rest, g);
+    cipc_strain_limit_hessian(rest, &at_rest, H);
+    for (int i = 0; i < SIZE; i++) largest = fmax(largest, fabs(g[i]));
+    for (int i = 0; i < SIZE * SIZE; i++) largest = fmax(largest, fabs(H[i]));
+    claim_figure("C5", "largest entry of gradient and Hessian at rest, s = 1.0608, shat = 1", largest, "N, N/m", CLAIM_EQUAL, 0);
 }
 
 static void test_rest_triangle_without_area_is_refused(void **state)
@@ -219,6 +229,76 @@ static void test_rest_triangle_without_area_is_refused(void **state)
     assert_false(cipc_strain_limit_init(&params, line, 1, 1.1, 1, 1));
 }
 
+/* ---- Refinement (claim C6) --------------------------------------------------------------------------------------------------- */
+
+/* The square [0, 1]^2, stretched by 1 + 0.04 u along u and by 1 + 0.03 v along v. */
+static void stretched(double u, double v, bool uniform, double x[3])
+{
+    x[0] = uniform ? 1.04 * u : u + 0.02 * u * u;
+    x[1] = uniform ? 1.03 * v : v + 0.015 * v * v;
+    x[2] = 0;
+}
+
+/* Node (i, j) of n x n cells; inner ones are displaced by up to a fifth of a cell, so that no two triangles are alike. */
+static void place(int n, int i, int j, double uv[2])
+{
+    bool inner = i > 0 && i < n && j > 0 && j < n;
+    uv[0] = (i + (inner ? 0.2 * sin(3.0 * i + 5.0 * j) : 0)) / n;
+    uv[1] = (j + (inner ? 0.2 * sin(7.0 * i + 2.0 * j) : 0)) / n;
+}
+
+static double energy_of_cells(int n, bool uniform)
+{
+    static const int corner[2][3][2] = {{{0, 0}, {1, 0}, {1, 1}}, {{0, 0}, {1, 1}, {0, 1}}};
+    double sum = 0;
+    for (int cell = 0; cell < n * n; cell++)
+        for (int t = 0; t < 2; t++) {
+            double flat[SIZE] = {0}, x[SIZE];
+            cipc_strain_limit params;
+            for (int k = 0; k < 3; k++) {
+                place(n, cell % n + corner[t][k][0], cell / n + corner[t][k][1], flat + 3 * k);
+                stretched(flat[3 * k], flat[3 * k + 1], uniform, x + 3 * k);
+            }
+            assert_true(cipc_strain_limit_init(&params, flat, 0.1, 1.0608, 1, 1000));
+            sum += cipc_strain_limit_value(x, &params);
+        }
+    return sum;
+}
+
+/* kappa_s t times the integral of b(sigma_1) + b(sigma_2), by Simpson's rule of 1000 panels: its error is far below those of the meshes. */
+static double exact_energy(void)
+{
+    enum { PANELS = 1000 };
+    double sum = 0, b[2][3];
+    for (int i = 0; i <= PANELS; i++) {
+        double at = (double)i / PANELS, weight = i == 0 || i == PANELS ? 1 : i % 2 ? 4 : 2;
+        cipc_strain_limit_barrier(1 + 0.04 * at, 1.0608, 1, b[0]);
+        cipc_strain_limit_barrier(1 + 0.03 * at, 1.0608, 1, b[1]);
+        sum += weight * (b[0][0] + b[1][0]);
+    }
+    return 1000 * 0.1 * sum / (3 * PANELS);
+}
+
+/* The energy is an integral over the rest area: a uniform stretch has the same on every mesh, and another converges as what it is made of does, of second order. */
+static void test_refinement(void **state)
+{
+    (void)state;
+    /* 2 * 64^2 triangles, some ten roundings each, and the stretch of 1.04 over its distance from the limit, 50 times: 1e5 roundings if all had the same sign */
+    static const double SUM_ROUNDINGS = 1e5 * DBL_EPSILON;
+    double exact = exact_energy(), uniform = energy_of_cells(1, true), apart = 0, before = fabs(energy_of_cells(16, false) / exact - 1), order = INFINITY, highest = 0;
+    for (int n = 2; n <= 64; n *= 2) apart = fmax(apart, fabs(energy_of_cells(n, true) / uniform - 1));
+    for (int n = 32; n <= 128; n *= 2) {
+        double error = fabs(energy_of_cells(n, false) / exact - 1);
+        order = fmin(order, log2(before / error));
+        highest = fmax(highest, log2(before / error));
+        before = error;
+    }
+    claim_figure("C6", "uniform stretch: energies of 1 to 64 cells a side apart, relative", apart, "1", CLAIM_AT_MOST, SUM_ROUNDINGS);
+    claim_within("C6", "uneven stretch, 16 to 128 irregular cells a side: order of convergence, smallest", order, "1", 1.7, 2.3);
+    claim_within("C6", "the same, largest", highest, "1", 1.7, 2.3);
+    claim_figure("C6", "the same: energy off the integral at 128 cells, relative", before, "1", CLAIM_LESS, 1e-3);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -227,6 +307,7 @@ int main(void)
         cmocka_unit_test(test_principal_stretches),         cmocka_unit_test(test_gradient_of_a_dilation),
         cmocka_unit_test(test_hessian_of_a_dilation),       cmocka_unit_test(test_collapsed_triangle),
         cmocka_unit_test(test_inactive_triangles_are_zero), cmocka_unit_test(test_rest_triangle_without_area_is_refused),
+        cmocka_unit_test(test_refinement),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

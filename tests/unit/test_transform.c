@@ -99,7 +99,7 @@ static void test_rejections(void **state)
     reject_around("", "\"transform\": {@\"translate\": [0, 1]},", CIPC_E_OUT_OF_RANGE, "bodies.cloth.transform.translate",
                   "has 2 elements");
     reject_around("", "@\"transform\": 3,", CIPC_E_WRONG_TYPE, "bodies.cloth.transform", "must be an object");
-    reject_around("", "@\"rest\": \"mesh\",", CIPC_E_OUT_OF_RANGE, "bodies.cloth.rest", "'initial'");
+    reject_around("", "@\"rest\": \"mesh\",", CIPC_E_OUT_OF_RANGE, "bodies.cloth.rest", "unknown rest shape 'mesh'");
     reject_around("", "\"rest\": {@\"scale\": -1},", CIPC_E_OUT_OF_RANGE, "bodies.cloth.rest.scale", "greater than 0");
 }
 

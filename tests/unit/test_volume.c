@@ -40,12 +40,20 @@ static void test_generators(void **state)
     assert_same_mesh(&got, &want, cipc_mesh_ball(&want, 0.5, 4, NULL));
     got = accept("{\"cylinder\": {\"radius\": 0.5, \"length\": 2, \"cells_across\": 4, \"cells_along\": 3}}");
     assert_same_mesh(&got, &want, cipc_mesh_solid_cylinder(&want, 0.5, 2, 4, 3, NULL));
+    got = accept("{\"revolution\": {\"section\": [[[0, 0], [1, 0]], [[0, 2], [1, 1]]], \"sectors\": 5}}");
+    assert_same_mesh(&got, &want, cipc_mesh_solid_revolution(&want, 2, 2, (const double[][2]){{0, 0}, {1, 0}, {0, 2}, {1, 1}}, 5, NULL));
+    got = accept("{\"revolution\": {\"section\": [[[0, 0], [1, 0]], [[0, 2], [1, 1]]], \"divide\": [2, 1], \"sectors\": 5}}");
+    assert_same_mesh(&got, &want, cipc_mesh_solid_revolution(&want, 3, 2, (const double[][2]){{0, 0}, {1, 0}, {0, 1}, {1, 0.5}, {0, 2}, {1, 1}}, 5, NULL));
+    static const cipc_capsule parts[2] = {{{0, 0, 0}, {1, 0.5, 0}, {0.5, 0.25}}, {{0, 0, 0.25}, {0, 0, 0.25}, {0.5, 0.5}}};
+    got = accept("{\"capsules\": {\"cell\": 0.25, \"blend\": 0.125, \"parts\": [{\"begin\": [0, 0, 0], \"end\": [1, 0.5, 0], \"radius\": 0.5, \"end_radius\": 0.25},"
+                 " {\"begin\": [0, 0, 0.25], \"radius\": 0.5}]}}");
+    assert_same_mesh(&got, &want, cipc_mesh_capsules(&want, 2, parts, 0.125, 0.25, NULL));
 }
 
 static void test_rejections(void **state)
 {
     (void)state;
-    refuse("{}", CIPC_E_MISSING_KEY, "t.json:1:1", "needs one of box, ball, cylinder, mesh");
+    refuse("{}", CIPC_E_MISSING_KEY, "t.json:1:1", "needs one of box, ball, cylinder, revolution, capsules, mesh");
     refuse("{\"boxx\": {}}", CIPC_E_UNKNOWN_KEY, "t.json:1:2 boxx", "'box'");
     refuse("{\"box\": {\"size\": [1, 2], \"cells\": [1, 1, 1]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:10 box.size", "must have 3");
     refuse("{\"box\": {\"size\": [1, 2, 0], \"cells\": [1, 1, 1]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:25 box.size.2", "greater than 0");
@@ -56,6 +64,17 @@ static void test_rejections(void **state)
            "t.json:1:28 cylinder.length", "greater than 0");
     refuse("{\"cylinder\": {\"radius\": 1, \"length\": 1, \"cells_along\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 cylinder.cells_across",
            "missing");
+    refuse("{\"revolution\": {\"sectors\": 3}}", CIPC_E_MISSING_KEY, "t.json:1:2 revolution.section", "missing");
+    refuse("{\"revolution\": {\"sectors\": 2, \"section\": []}}", CIPC_E_OUT_OF_RANGE, "t.json:1:17 revolution.sectors", "at least 3");
+    refuse("{\"revolution\": {\"sectors\": 3, \"section\": [[[0, 0], [1, 0]]]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:31 revolution.section", "at least 2");
+    refuse("{\"revolution\": {\"sectors\": 3, \"section\": [[[0, 0], [1, 0]], [[0, 1], [1, 1], [2, 1]]]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:61 revolution.section.1",
+           "has 3 points, but the first row has 2");
+    refuse("{\"revolution\": {\"sectors\": 3, \"section\": [[[0, 0], [1, 0]], [[0, 1], [1, -1]]]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:2 revolution", "not convex");
+    refuse("{\"capsules\": {\"cell\": 1}}", CIPC_E_MISSING_KEY, "t.json:1:2 capsules.parts", "missing");
+    refuse("{\"capsules\": {\"cell\": 1, \"parts\": []}}", CIPC_E_OUT_OF_RANGE, "t.json:1:26 capsules.parts", "at least 1");
+    refuse("{\"capsules\": {\"cell\": 1, \"parts\": [{\"begin\": [0, 0, 0]}]}}", CIPC_E_MISSING_KEY, "t.json:1:36 capsules.parts.0.radius", "missing");
+    refuse("{\"capsules\": {\"cell\": 1, \"parts\": [{\"radius\": 1}]}}", CIPC_E_MISSING_KEY, "t.json:1:36 capsules.parts.0.begin", "missing");
+    refuse("{\"capsules\": {\"cell\": 9, \"parts\": [{\"begin\": [0, 0, 0], \"radius\": 1}]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:2 capsules", "too large");
     refuse("{\"mesh\": \"/nowhere/at/all.msh\"}", CIPC_E_MISSING_FILE, "t.json:1:2 mesh", "'/nowhere/at/all.msh'");
 }
 
