@@ -193,8 +193,8 @@ static result run(bool limited)
     const double *start = scene->state->position;
     result r = {core_radius(scene->model, start, outcome.position), core_radius(scene->model, start, start), outcome.max_stretch};
     print_message("%s: core radius %.4f m (start %.4f m), largest stretch %.4f, smallest gap %.2e m, %.0f contacts at the end, %.0f Newton iterations\n",
-                  limited ? "limit 1.134" : "no limit", r.radius, r.start_radius, r.stretch, outcome.min_gap, outcome.quantity[QUANTITY_contacts],
-                  outcome.quantity[QUANTITY_newton_iterations]);
+                  limited ? "limit 1.134" : "no limit", r.radius, r.start_radius, r.stretch, outcome.min_gap, outcome.last.contacts[0],
+                  outcome.last.newton_iterations[0]);
     scene_outcome_free(&outcome);
     cipc_scene_destroy(scene);
     return r;

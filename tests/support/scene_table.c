@@ -10,7 +10,20 @@
 #define NO_LIMIT "bodies.cloth.strain_limit=false"
 #define LIMIT(s) "bodies.cloth.strain_limit.limit=" #s
 #define MEMBRANE(m) "bodies.cloth.membrane_factor=" #m
-#define FLAT "the cloth stays as it is at rest"
+#define FLAT_CLOTH {"membrane of cloth", "the cloth stays flat"}, {"bending of cloth", "the cloth stays flat"}
+#define NO_FOLD {"friction of cloth and cloth", "the cloth does not touch itself"}
+/* Buckles in its first step, and which way is left to the last bits; the variant with smaller steps feels all of these but NO_FOLD's. */
+#define LOTTERY                                                                                                                      \
+    {                                                                                                                                \
+        {"friction of cloth and ball", "the last bits decide from the first step on"},                                               \
+        {"friction of cloth and cloth", "the last bits decide from the first step on"},                                              \
+        {"strain limit of cloth", "the last bits decide from the first step on"},                                                    \
+    }
+#define FLAT_PLATE                                                                                                                   \
+    {                                                                                                                                \
+        {"membrane of plate", "contacts are weighted by area, as masses are: the plate stays flat"},                                 \
+        {"bending of plate", "the plate stays flat"},                                                                                \
+    }
 
 /* A new scene: a line here, then `make golden SCENES=name`. What its tests then call unfelt is either a weakness of the scene, or goes into
  * the line with the reason. Test program i of n runs every n-th. */
@@ -19,19 +32,21 @@ const scene_variant scene_variants[] = {
     {"drape-membrane-1-limit-1.0608", SCENE("drape", MEMBRANE(1), LIMIT(1.0608)), {{0}}},
     {"drape-membrane-0.1", SCENE("drape", MEMBRANE(0.1), NO_LIMIT), {{0}}},
     {"drape-membrane-0.1-limit-1.0608", SCENE("drape", MEMBRANE(0.1), LIMIT(1.0608)), {{0}}},
-    {"drape-membrane-0.01", SCENE("drape", MEMBRANE(0.01), NO_LIMIT), {{0}}},
+    {"drape-membrane-0.01", SCENE("drape", MEMBRANE(0.01), NO_LIMIT), {NO_FOLD}},
     {"drape-membrane-0.01-limit-1.0608", SCENE("drape", MEMBRANE(0.01), LIMIT(1.0608)), {{0}}},
     {"drape-membrane-0.01-limit-1.01", SCENE("drape", MEMBRANE(0.01), LIMIT(1.01)), {{0}}},
-    {"drape-membrane-0.01-limit-1.001", SCENE("drape", MEMBRANE(0.01), LIMIT(1.001)), {{0}}},
+    {"drape-membrane-0.01-limit-1.001", SCENE("drape", MEMBRANE(0.01), LIMIT(1.001)), LOTTERY},
+    {"drape-membrane-0.01-limit-1.001-h-0.01", SCENE("drape", MEMBRANE(0.01), LIMIT(1.001), "time_step=0.01", "steps=20"), {NO_FOLD}},
     {"two-corner-hang-limit-1.0608", SCENE("two-corner-hang", LIMIT(1.0608)), {{0}}},
     {"two-corner-hang-limit-1.01", SCENE("two-corner-hang", LIMIT(1.01)), {{0}}},
-    {"two-corner-hang-limit-1.001", SCENE("two-corner-hang", LIMIT(1.001)), {{0}}},
-    {"orthotropic-drape", SCENE("orthotropic-drape", NULL), {{0}}},
+    {"two-corner-hang-limit-1.001", SCENE("two-corner-hang", LIMIT(1.001)),
+     {{"dhat", "it touches itself from step 11 to 13, when last bits move it by millimetres"}}},
+    {"orthotropic-drape", SCENE("orthotropic-drape", NULL),
+     {{"friction of cloth and cloth", "begins in step 8, when picometres have become millimetres"}}},
     {"orthotropic-hang", SCENE("orthotropic-hang", NULL), {{0}}},
     {"rotating-sphere", SCENE("rotating-sphere", NULL), {{0}}},
     {"tablecloth", SCENE("tablecloth", NULL), {{0}}},
     {"twisted-cylinder", SCENE("twisted-cylinder", NULL), {{0}}},
-    {"twisted-cylinder-thin", SCENE("twisted-cylinder", "bodies.cylinder.offset=0"), {{0}}},
     {"braids", SCENE("braids", NULL), {{0}}},
     {"hairs", SCENE("hairs", NULL), {{0}}},
     {"reef-knot", SCENE("reef-knot", NULL), {{0}}},
@@ -46,10 +61,10 @@ const scene_variant scene_variants[] = {
     {"sprinkles", SCENE("sprinkles", NULL), {{0}}},
     {"granules", SCENE("granules", NULL), {{0}}},
     {"all-in", SCENE("all-in", NULL), {{0}}},
-    {"free-fall", SCENE("free-fall", NULL), {{"dhat", "nothing comes near"}, {"membrane of cloth", FLAT}, {"bending of cloth", FLAT}}},
-    {"incline", SCENE("incline", NULL), {{0}}},
-    {"incline-sticks", SCENE("incline", "friction.0.mu=0.5"), {{0}}},
-    {"resting", SCENE("resting", NULL), {{0}}},
+    {"free-fall", SCENE("free-fall", NULL), {{"dhat", "nothing comes near"}, FLAT_CLOTH}},
+    {"incline", SCENE("incline", NULL), FLAT_PLATE},
+    {"incline-sticks", SCENE("incline", "friction.0.mu=0.5"), FLAT_PLATE},
+    {"resting", SCENE("resting", NULL), FLAT_PLATE},
 };
 const int scene_variant_count = sizeof scene_variants / sizeof scene_variants[0];
 
