@@ -78,7 +78,7 @@ static cipc_status accepts(cipc_stepper *s, double before, double after, double 
 {
     const double c = s->options.released ? 0 : sufficient_decrease, most = before + c * alpha * slope;
     *good = after <= most + s->noise;
-    if (s->options.released || after <= most || !*good) return CIPC_OK;
+    if (s->options.released || after <= most || !*good || -slope <= s->noise) return CIPC_OK; /* a slope that small is rounding itself */
     double there;
     cipc_status status = trial_slope(s, &there, error);
     *good = there <= passed_slope * -slope;

@@ -99,20 +99,27 @@ static void test_overshoot(void **state)
     }
 }
 
-/* The same way, with so much noise that every point passes by its value: the slope there, 16 alpha - 4 in units of 2 E_0, decides, and wants 1/4 again. */
+/* The same way, -8 E_0 steep at the start, with noise of 7 E_0: the point at 1/2 passes by its value, but it goes up there as steeply; so 1/4 again. With noise larger than the slope
+ * there is nothing that could decide, and the first point is taken. */
 static void test_overshoot_within_the_noise(void **state)
 {
     (void)state;
-    for (int released = 0; released < 2; released++) {
+    static const struct {
+        double noise; /* E_0 */
+        bool released;
+        double alpha;
+    } cases[] = {{7, false, 0.25}, {7, true, 0.5}, {8.5, false, 1}, {8.5, true, 1}};
+    for (int i = 0; i < 4; i++) {
         sheet_scene scene;
         const double p[3] = {0, -4, 0};
         sheet_scene_init(&scene);
-        scene.options.released = released;
+        scene.options.released = cases[i].released;
         make(&scene, -1, false, true);
-        search r = try_noisy_search(&scene, p, 1e6);
+        const double start = energy_at(&scene, scene.stepper->x, &scene.stepper->contacts), there = 1 - 4 * cases[i].alpha;
+        search r = try_noisy_search(&scene, p, cases[i].noise * start);
         assert_int_equal(r.status, CIPC_OK);
-        assert_true(r.alpha == (released ? 1 : 0.25));
-        assert_true(scene.stepper->noise == 1e6 && fabs(r.after - (released ? 9 * r.before : 0)) <= 1e-14 * r.before);
+        assert_true(r.alpha == cases[i].alpha);
+        assert_true(scene.stepper->noise == cases[i].noise * start && fabs(r.after - there * there * start) <= 1e-14 * start);
         sheet_scene_free(&scene);
     }
 }
