@@ -19,6 +19,7 @@
         {"friction of cloth and cloth", "the last bits decide from the first step on"},                                              \
         {"strain limit of cloth", "the last bits decide from the first step on"},                                                    \
     }
+#define ONE_SEGMENT "rods of one segment do not bend"
 #define FLAT_PLATE                                                                                                                   \
     {                                                                                                                                \
         {"membrane of plate", "contacts are weighted by area, as masses are: the plate stays flat"},                                 \
@@ -58,7 +59,8 @@ const scene_variant scene_variants[] = {
     {"noodles", SCENE("noodles", NULL), {{0}}},
     {"splitting", SCENE("splitting", NULL), {{0}}},
     {"stack", SCENE("stack", NULL), {{0}}},
-    {"sprinkles", SCENE("sprinkles", NULL), {{"bending of sprinkles", "rods of one segment"}, {"friction of bowl", "a pair has the smaller of two coefficients"}}},
+    {"sprinkles", SCENE("sprinkles", NULL), {{"bending of sprinkles", ONE_SEGMENT}, {"friction of bowl", "they scatter within the step in which friction begins"}}},
+    {"sprinkles-h-0.002", SCENE("sprinkles", "time_step=0.002", "steps=34"), {{"bending of sprinkles", ONE_SEGMENT}}},
     {"granules", SCENE("granules", NULL), {{0}}},
     {"all-in", SCENE("all-in", NULL), {{0}}},
     {"free-fall", SCENE("free-fall", NULL), {{"dhat", "nothing comes near"}, FLAT_CLOTH}},
