@@ -220,6 +220,8 @@ typedef struct cipc_friction {
 double cipc_friction_value(const double x[12], const cipc_friction *params);
 void cipc_friction_gradient(const double x[12], const cipc_friction *params, double g[12]);
 void cipc_friction_hessian(const double x[12], const cipc_friction *params, double H[144]);
+/* Hessian of the quadratic with value and gradient of the friction at x that lies above it everywhere: mu lambda (f1/|u|) P P^T between the nodes (docs/theory/energies.md (34)). */
+void cipc_friction_majorizer(const double x[12], const cipc_friction *params, double H[144]);
 /* f0(y), f1(y) = f0', f1'(y) of SPEC D.6 for transition width e. */
 void cipc_friction_mollifier(double y, double e, double f[3]);
 

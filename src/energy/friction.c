@@ -64,12 +64,11 @@ static void sliding_hessian(const double u[2], const cipc_friction *params, doub
     M[2] = params->coefficient * along_minus_across * t[0] * t[1];
 }
 
-void cipc_friction_hessian(const double x[12], const cipc_friction *params, double H[144])
+/* W^T P M P^T W, W the weights: M, as (11, 22, 12), on the nodes of the stencil. */
+static void on_nodes(const cipc_friction *params, const double M[3], double H[144])
 {
-    double u[2], M[3], K[3][3];
+    double K[3][3];
     const double *p = params->basis, *q = params->basis + 3, *w = params->weights;
-    sliding(x, params, u);
-    sliding_hessian(u, params, M);
     for (int r = 0; r < 3; r++) {
         for (int c = 0; c < 3; c++) K[r][c] = M[0] * (p[r] * p[c]) + M[1] * (q[r] * q[c]) + M[2] * (p[r] * q[c] + q[r] * p[c]);
     }
@@ -80,4 +79,20 @@ void cipc_friction_hessian(const double x[12], const cipc_friction *params, doub
             for (int j = 0; j < 12; j++) H[12 * (3 * i + r) + j] = w[i] * row[j];
         }
     }
+}
+
+void cipc_friction_hessian(const double x[12], const cipc_friction *params, double H[144])
+{
+    double u[2], M[3];
+    sliding(x, params, u);
+    sliding_hessian(u, params, M);
+    on_nodes(params, M, H);
+}
+
+void cipc_friction_majorizer(const double x[12], const cipc_friction *params, double H[144])
+{
+    double u[2];
+    sliding(x, params, u);
+    const double m = params->coefficient * slope_over_length(sqrt(u[0] * u[0] + u[1] * u[1]), params->eps); /* (34) */
+    on_nodes(params, (const double[3]){m, m, 0}, H);
 }

@@ -214,6 +214,10 @@ static void local_hessian(const cipc_stepper *s, const cipc_term_list *list, int
         memset(H, 0, 144 * sizeof *H); /* SPEC C.6: its arc cosine gives no gradient where the hinge is flat */
         return;
     }
+    if (s->majorize_friction && energy == cipc_energy_entry(CIPC_ENERGY_FRICTION)) {
+        cipc_friction_majorizer(y, params, H);
+        return;
+    }
     energy->hessian(y, params, H);
     if (s->options.released && list->energy == s->groups[CIPC_GROUP_STRAIN_LIMIT].energy)
         project_in_deformation_gradient(((const cipc_strain_limit *)params)->inverse_rest, H);

@@ -24,9 +24,14 @@ static const double largest_telling_shift = 1;
 static const double exact_residual_factor = 100;
 enum { EXACT_PAUSE = 4 };
 
+/* After a line search that halved this often, friction enters by its majorizer for some iterations: steps of its Hessian, which does not resist along the motion, go back and forth
+ * across its kink (docs/theory/time_step.md). */
+enum { ZIGZAG_HALVINGS = 2, MAJORIZED_ITERATIONS = 3 };
+
 /* State of one minimisation. */
 typedef struct minimisation {
     int exact_pause;
+    int majorized; /* iterations with the majorizer of friction that are left, the present one included */
     double energy, residual, slope;
     double recent[RMS_WINDOW];
     double shift; /* mass added to the last Newton matrix, in multiples of the mass matrix */
@@ -89,7 +94,8 @@ static cipc_status factor_of_hessian(cipc_stepper *s, minimisation *m, cipc_erro
     bool definite = false;
     cipc_status status = CIPC_OK;
     m->shift = 0;
-    if (!s->options.released && m->exact_pause == 0 && m->iteration > 0 && m->residual < exact_residual_factor * s->options.newton_tolerance) {
+    s->majorize_friction = m->majorized > 0;
+    if (!s->options.released && m->majorized == 0 && m->exact_pause == 0 && m->iteration > 0 && m->residual < exact_residual_factor * s->options.newton_tolerance) {
         status = assemble(s, false, error);
         if (!status) status = try_factorization(s, &definite, error);
         if (status || definite) return status;
@@ -141,12 +147,20 @@ static double step_length(const cipc_stepper *s)
 
 static bool below_tolerance(const cipc_stepper *s, minimisation *m, double alpha)
 {
-    bool telling = m->shift <= largest_telling_shift;
+    bool telling = m->shift <= largest_telling_shift && m->majorized == 0; /* steps of the majorizer are short */
     if (s->options.newton_norm == CIPC_NORM_MAX) return telling && alpha == 1 && m->residual <= s->options.newton_tolerance;
     double worst = 0;
     m->recent[m->iteration % RMS_WINDOW] = m->residual;
     for (int i = 0; i < RMS_WINDOW; i++) worst = fmax(worst, m->recent[i]);
     return telling && m->iteration + 1 >= RMS_WINDOW && worst <= s->options.newton_tolerance;
+}
+
+/* How the next iteration takes friction, after one that halved its step `halvings` times. */
+static void choose_friction(const cipc_stepper *s, minimisation *m, long halvings)
+{
+    if (m->majorized > 0) m->majorized--;
+    if (m->residual <= s->options.newton_tolerance) m->majorized = 0; /* its Hessian has to confirm that */
+    if (!s->options.released && s->friction.count > 0 && halvings >= ZIGZAG_HALVINGS) m->majorized = MAJORIZED_ITERATIONS;
 }
 
 static cipc_status energy_now(cipc_stepper *s, double *energy, cipc_error *error)
@@ -249,12 +263,14 @@ cipc_status cipc_newton(cipc_stepper *s, cipc_error *error)
         m.residual = step_length(s);
         s->report->residual = m.residual;
         s->report->newton_iterations++;
+        const long halvings = s->report->line_search_halvings;
         status = cipc_line_search(s, m.iteration, m.slope, &m.energy, &alpha, error);
         if (status) return status;
         if (alpha == 0) break; /* no decrease to be had: say so rather than call it converged */
         bool converged = below_tolerance(s, &m, alpha);
         status = drive_penalty(s, &m, converged, &waiting, error);
         if (status || (converged && !waiting)) return status;
+        choose_friction(s, &m, s->report->line_search_halvings - halvings);
         status = adapt(s, &m, error);
     }
     return status ? status : not_converged(s, &m, error);

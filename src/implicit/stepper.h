@@ -93,6 +93,7 @@ struct cipc_stepper {
     cipc_block_matrix matrix;
     bool pattern_valid;
     bool project;                 /* local Hessians are projected to positive semi-definite */
+    bool majorize_friction;       /* friction enters the Newton matrix by its majorizer */
     int *static_slots;            /* block index of every pair of nodes of every element, -1: Dirichlet */
     int *contact_slots;
     int contact_slot_capacity;

@@ -119,6 +119,41 @@ static void test_rest(void **state)
     for (int i = 0; i < SIZE * SIZE; i++) assert_true(isfinite(H[i]));
 }
 
+/* (34): the majorizer's quadratic meets the friction at x and is nowhere below it; across the motion, and where nothing moves, it is the Hessian. */
+static void test_majorizer(void **state)
+{
+    (void)state;
+    static const double slides[][2] = {{0, 0}, {0.1, 0}, {-0.2, 0.3}, {0.5, 0}, {2, 0}, {-3, 4}};
+    static const double moves[][2] = {{0.01, 0}, {-0.15, 0.05}, {-0.3, -0.4}, {1, 0}, {-2, 0}, {-4, 0}, {6, -8}, {0, 0.5}};
+    double x[SIZE], there[SIZE], g[SIZE], M[SIZE * SIZE], H[SIZE * SIZE];
+    for (size_t i = 0; i < sizeof slides / sizeof slides[0]; i++) {
+        moved(slides[i][0], slides[i][1], 0, x);
+        cipc_friction_gradient(x, &contact, g);
+        cipc_friction_majorizer(x, &contact, M);
+        cipc_friction_hessian(x, &contact, H);
+        for (size_t j = 0; j < sizeof moves / sizeof moves[0]; j++) {
+            const double v[3] = {moves[j][0], moves[j][1], 0};
+            double above = cipc_friction_value(x, &contact);
+            for (int a = 0; a < 3; a++) {
+                above += g[a] * v[a];
+                for (int b = 0; b < 3; b++) above += 0.5 * v[a] * M[SIZE * a + b] * v[b];
+            }
+            moved(slides[i][0] + v[0], slides[i][1] + v[1], 0, there);
+            assert_true(cipc_friction_value(there, &contact) <= above * (1 + ROUNDINGS));
+        }
+        /* No more than is needed: turned round, the motion has the same friction, and the quadratic meets it there too. */
+        moved(-slides[i][0], -slides[i][1], 0, there);
+        double back = cipc_friction_value(x, &contact);
+        for (int a = 0; a < 2; a++) back += -2 * g[a] * slides[i][a] + 2 * M[(SIZE + 1) * a] * slides[i][a] * slides[i][a];
+        assert_close(back, cipc_friction_value(there, &contact));
+        const double y2 = slides[i][0] * slides[i][0] + slides[i][1] * slides[i][1], across[2] = {-slides[i][1], slides[i][0]};
+        for (int k = 0; k < SIZE; k++) {
+            if (y2 > 0) assert_close(M[SIZE * k] * across[0] + M[SIZE * k + 1] * across[1], H[SIZE * k] * across[0] + H[SIZE * k + 1] * across[1]);
+            else for (int l = 0; l < SIZE; l++) assert_close(M[SIZE * k + l], H[SIZE * k + l]);
+        }
+    }
+}
+
 static void test_common_motion_does_not_slide(void **state)
 {
     (void)state;
@@ -137,6 +172,7 @@ int main(void)
         cmocka_unit_test(test_sliding_stiffness_is_across_the_motion_only),
         cmocka_unit_test(test_sticking),
         cmocka_unit_test(test_rest),
+        cmocka_unit_test(test_majorizer),
         cmocka_unit_test(test_common_motion_does_not_slide),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
