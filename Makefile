@@ -105,9 +105,9 @@ validation: ## physics against closed forms: run their tests, write the table an
 	@ci/validation $(BUILD)/validation.tsv $(VALIDATION_PAGE) $(VALIDATION_IMAGES)
 
 SIZE ?= ci
-claims: ## run what shows the papers' claims (SIZE=ci; desk and paper take hours), write docs/claims.md, build/claims.json, build/claims.xml
+claims: ## run what shows the papers' claims (SIZE=ci; desk and paper take hours; RUNS="a b": only these; PAGE=FILE), write docs/claims.md, build/claims.json, build/claims.xml
 	$(SUBMAKE) all $$(ci/claims --programs --build $(BUILD))
-	@ci/claims --build $(BUILD) --size $(SIZE)
+	@ci/claims --build $(BUILD) --size $(SIZE) $(if $(RUNS),--select '$(RUNS)') $(if $(PAGE),--page $(PAGE))
 
 golden: ## make the golden files anew: SCENES="a b" or all; prints what changed, refuses where an invariant fails (tests/golden/README.md)
 	$(SUBMAKE) all $(BUILD)/tests/scenes/test_scenes
@@ -201,7 +201,8 @@ CHECKS := 'ci/check-layers' 'ci/check-layers --self-test' 'ci/check-symbols $(BU
     $(if $(PROGRAM),'ci/check-docs $(BUILD)') 'ci/check-docs --self-test' 'ci/check-install $(BUILD)' 'ci/run-tests --self-test' \
     'tests/conformance/check $(BUILD)' 'tests/conformance/check-verify $(BUILD)' 'ci/mutants --self-test' 'ci/mutants --fast --build $(BUILD)' \
     'ci/check-gappa' 'ci/check-gappa --self-test' 'ci/validation --self-test' 'ci/golden --self-test' 'ci/scene-costs --self-test' \
-    $(if $(PROGRAM),'ci/claims --check --build $(BUILD)') 'ci/claims --self-test' 'ci/nightly --self-test'
+    $(if $(PROGRAM),'ci/claims --check --build $(BUILD)') 'ci/claims --self-test' 'ci/nightly --self-test' \
+    $(if $(PROGRAM),'ci/scene-page --check $(BUILD)/cipc') 'ci/scene-page --self-test'
 
 verdict: all tests
 	@CIPC=$(BUILD)/cipc ci/run-tests $(BUILD)/tests $(CHECKS) $(TESTS)

@@ -5,6 +5,7 @@ Evidence is what ci/claims gathers:
     runs       name -> {"stale", "exit_status", "summary": of cipc run, "ended"}
     campaigns  name -> {"stale", "exit_status", "report": of cipc verify, "ended"}
     missing pieces are missing keys.
+    all_runs, selected: names of the runs that were to be made; true if those are not all there are. Then claims that need others, or tests that skip for want of them, are open.
 A claim has passed only if every piece of evidence it names is there, is of these very programs and inputs, and passed, and every figure is there, once, and lies as it should to its
 threshold. What is not shown by anything is open, whatever else has passed.
 """
@@ -231,10 +232,27 @@ def judge_campaign(item, evidence, reasons):
     return figures, [piece["ended"]] if piece else []
 
 
+def left_out(claim, evidence):
+    """Why a claim is not judged when only some runs were asked for; "": it is."""
+    for item in claim["evidence"] if evidence.get("selected") else []:
+        if "runs" in item and item["runs"] != "all":
+            absent = [name for name in item["runs"] if name not in evidence["all_runs"]]
+            if absent:
+                return "not among the selected runs: " + ", ".join(f"`{name}`" for name in absent)
+        results = (evidence["tests"].get(item.get("test")) or {}).get("results", {})
+        skipped = [name for name in item.get("names", []) if results.get(name) == "skipped"]
+        if skipped:
+            return "what it measures is not among the selected runs: " + ", ".join(f"`{name}`" for name in skipped)
+    return ""
+
+
 def judge_claim(claim, evidence):
     row = {"id": claim["id"], "claim": claim["claim"], "where": claim["where"], "figures": [], "shown_by": [], "reasons": [], "date": ""}
     if not claim.get("evidence"):
         return {**row, "verdict": "open", "reasons": [claim["open"]]}
+    absent = left_out(claim, evidence)
+    if absent:
+        return {**row, "verdict": "open", "reasons": [absent]}
     ended = []
     for item in claim["evidence"]:
         if "test" in item:
@@ -293,6 +311,8 @@ def claim_lines(row):
 def tables(head, papers):
     total = counts(papers)
     lines = [f"{total['passed']} passed, {total['failed']} failed, {total['open']} open. Size `{head['size']}`, {head['date']}, commit {head['commit']}, {head['machine']}."]
+    if head.get("selected"):
+        lines += ["", "Only these runs were made, and \"every scene and variant\" below is these: " + ", ".join(f"`{name}`" for name in head["selected"]) + "."]
     for paper in papers:
         lines += ["", f"## {paper['name']}", "", f"{paper['source']}.", "", "| | claim | in the paper | shown by | figure | measured | threshold | verdict | date |", "|" + " --- |" * 9]
         for row in paper["claims"]:

@@ -11,7 +11,8 @@
 #include <string.h>
 
 #include "base/vector.h"
-#include "support/scene_run.h"
+#include "support/claim.h"
+#include "support/figure_run.h"
 
 static const char file[] = "tests/scenes/reef-knot.json";
 static const double limit = 1.134;
@@ -21,13 +22,6 @@ static const double core_length = 0.03;
  * other's radius. */
 static const double tighter = 0.9;
 enum { RIBBONS = 2, CROSSINGS_MAX = 32, CROSSINGS = 6 };
-
-static const char *size_override(char text[32])
-{
-    const char *size = getenv("CIPC_SIZE");
-    snprintf(text, 32, "size=%s", size != NULL ? size : "ci");
-    return text;
-}
 
 /* ---- Is it a reef knot? ----------------------------------------------------------------------------------------------------- */
 
@@ -120,8 +114,9 @@ static bool is_reef(const crossing *found, int count)
 static void test_it_is_a_reef_knot(void **state)
 {
     (void)state;
-    char size[32];
-    const char *overrides[1] = {size_override(size)};
+    char size[64];
+    snprintf(size, sizeof size, "size=%s", figure_size());
+    const char *overrides[1] = {size};
     cipc_scene *scene;
     cipc_error error;
     crossing found[CROSSINGS_MAX];
@@ -177,36 +172,24 @@ typedef struct result {
     double radius, start_radius, stretch;
 } result;
 
-static result run(bool limited)
+static result knot_of(const char *name, const char *const *overrides)
 {
-    char size[32];
-    const scene_request request = {.file = file, .threads = 1,
-                                   .overrides = {size_override(size), limited ? NULL : "bodies.left.strain_limit=false", "bodies.right.strain_limit=false"}};
-    scene_outcome outcome;
-    cipc_scene *scene;
-    cipc_error error;
-    if (cipc_scene_load(&scene, file, 1, request.overrides, &error) != CIPC_OK) fail_msg("%s: %s", error.place, error.what);
-    if (scene_run(&request, &outcome, &error) != CIPC_OK) fail_msg("%s: %s", error.place, error.what); /* not converged, or an invariant broken */
-    assert_int_equal(outcome.steps, scene->steps);
-    assert_int_equal(outcome.node_count, scene->model->node_count);
-    assert_true(outcome.max_friction > 0);
-    const double *start = scene->state->position;
-    result r = {core_radius(scene->model, start, outcome.position), core_radius(scene->model, start, start), outcome.max_stretch};
-    print_message("%s: core radius %.4f m (start %.4f m), largest stretch %.4f, smallest gap %.2e m, %.0f contacts at the end, %.0f Newton iterations\n",
-                  limited ? "limit 1.134" : "no limit", r.radius, r.start_radius, r.stretch, outcome.min_gap, outcome.last.contacts[0],
-                  outcome.last.newton_iterations[0]);
-    scene_outcome_free(&outcome);
-    cipc_scene_destroy(scene);
+    figure_run run = figure_run_of(name, "reef-knot", overrides);
+    const double *start = run.scene->state->position;
+    const result r = {core_radius(run.scene->model, start, run.end), core_radius(run.scene->model, start, start), run.max_stretch};
+    print_message("%s: core radius %.4f m (start %.4f m), largest stretch %.4f, smallest gap %.2e m\n", name, r.radius, r.start_radius, r.stretch, run.min_gap);
+    figure_run_free(&run);
     return r;
 }
 
 static void test_the_limit_tightens_it(void **state)
 {
     (void)state;
-    result with = run(true), without = run(false);
+    const result with = knot_of("reef-knot", NULL);
+    const result without = knot_of("reef-knot-no-limit", (const char *[]){"bodies.left.strain_limit=false", "bodies.right.strain_limit=false", NULL});
     assert_true(with.stretch < limit && without.stretch > limit); /* the limit was needed */
-    assert_true(without.radius < 0.5 * without.start_radius);     /* both are drawn tight */
-    assert_true(with.radius < tighter * without.radius);
+    claim_figure("C4 knot", "radius of the knot's core drawn without the limit over that at the start", without.radius / without.start_radius, "1", CLAIM_LESS, 0.5);
+    claim_figure("C4 knot", "radius of the knot's core drawn with the limit of 1.134 over that without", with.radius / without.radius, "1", CLAIM_LESS, tighter);
 }
 
 int main(void)

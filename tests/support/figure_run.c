@@ -86,8 +86,21 @@ static void run_here(figure_run *run, const char *file, const char *const *overr
     scene_outcome_free(&outcome);
 }
 
+/* Is it among those of $CIPC_RUNS_SELECTED, if that is there? */
+static bool is_selected(const char *name)
+{
+    const char *selected = getenv("CIPC_RUNS_SELECTED");
+    const size_t length = strlen(name);
+    for (const char *p = selected; p != NULL; p = strchr(p, ' ')) {
+        p += *p == ' ';
+        if (strncmp(p, name, length) == 0 && (p[length] == ' ' || p[length] == '\0')) return true;
+    }
+    return selected == NULL;
+}
+
 figure_run figure_run_of(const char *name, const char *scene, const char *const *overrides)
 {
+    if (!is_selected(name)) skip();
     const char *all[FIGURE_OVERRIDES + 2] = {NULL}, *runs = getenv("CIPC_RUNS");
     char file[PATH_SIZE], size[64], folder[FOLDER_SIZE];
     int count = 0;
