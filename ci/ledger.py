@@ -5,6 +5,7 @@ Evidence is what ci/claims gathers:
     runs       name -> {"stale", "exit_status", "summary": of cipc run, "ended"}
     campaigns  name -> {"stale", "exit_status", "report": of cipc verify, "ended"}
     missing pieces are missing keys.
+    size       of the scenes; a figure with "sizes" is asked for at these only
     all_runs, selected: names of the runs that were to be made; true if those are not all there are. Then claims that need others, or tests that skip for want of them, are open.
 A claim has passed only if every piece of evidence it names is there, is of these very programs and inputs, and passed, and every figure is there, once, and lies as it should to its
 threshold. What is not shown by anything is open, whatever else has passed.
@@ -14,6 +15,7 @@ import math
 
 OF_THE_SPECIFICATION = ["C%d" % k for k in range(1, 15)] + ["A%d" % k for k in range(1, 7)] + ["D%d" % k for k in range(1, 9)] + ["B1", "B2", "B3"]
 RELATIONS = {"<": lambda m, t: m < t, "<=": lambda m, t: m <= t, ">": lambda m, t: m > t, ">=": lambda m, t: m >= t, "=": lambda m, t: m == t}
+SIZES = ("ci", "desk", "paper")
 ANY = "any"  # whose figure a broken line of a log is
 SOURCES = {"test": (), "runs": ("violations", "held", "unconverged", "count", "sum", "min", "max"), "campaign": ("counter",)}
 
@@ -33,6 +35,8 @@ def check_figure(where, kind, figure):
     wanted = {"within": {"low", "high"}, None: set()}.get(relation, {"threshold"})
     if relation not in RELATIONS and relation not in ("within", None) or {"low", "high", "threshold"} & set(figure) != wanted:
         raise BadDefinition(f"{where}: '{figure['figure']}': relation {relation!r} and its thresholds do not go together")
+    if "sizes" in figure and (kind != "test" or not figure["sizes"] or set(figure["sizes"]) - set(SIZES)):
+        raise BadDefinition(f"{where}: '{figure['figure']}': sizes are of {', '.join(SIZES)}, and of a test's figure")
     if kind == "test" and relation is None:
         raise BadDefinition(f"{where}: '{figure['figure']}' of a test has no threshold")
 
@@ -145,10 +149,11 @@ def judge_test(claim, item, evidence, reasons):
         if piece and results.get(name) != "passed":
             reasons.append(f"{program}: {name} " + {"failed": "failed", "skipped": "was skipped"}.get(results.get(name), "has not run"))
     records = [r for r in piece["figures"] if r.get("claim") in (claim["id"], ANY)] if piece else []
-    named = {f["figure"] for f in item.get("figures", [])}
+    asked = [f for f in item.get("figures", []) if evidence["size"] in f.get("sizes", SIZES)]
+    named = {f["figure"] for f in asked}
     reasons += [f"{program}: reports '{r.get('figure')}', which ci/claims.json does not name" for r in records if r.get("figure") not in named]
     figures = []
-    for figure in item.get("figures", []):
+    for figure in asked:
         mine = [r for r in records if r["figure"] == figure["figure"]]
         if len(mine) > 1:
             reasons.append(f"{program}: reports '{figure['figure']}' {len(mine)} times")
@@ -246,12 +251,27 @@ def left_out(claim, evidence):
     return ""
 
 
+def has_failed(claim, evidence):
+    """Does anything of what is there speak against the claim? Then leaving out the rest does not make it open."""
+    for item in claim["evidence"]:
+        piece = evidence["tests"].get(item.get("test"))
+        if piece and (piece["exit_status"] != 0 or "failed" in [piece["results"].get(name) for name in item.get("names", [])]):
+            return True
+        reasons = []
+        for name in item["runs"] if isinstance(item.get("runs"), list) else []:
+            if name in evidence["runs"]:
+                judge_run(item, name, evidence["runs"][name], reasons)
+        if reasons:
+            return True
+    return False
+
+
 def judge_claim(claim, evidence):
     row = {"id": claim["id"], "claim": claim["claim"], "where": claim["where"], "figures": [], "shown_by": [], "reasons": [], "date": ""}
     if not claim.get("evidence"):
         return {**row, "verdict": "open", "reasons": [claim["open"]]}
     absent = left_out(claim, evidence)
-    if absent:
+    if absent and not has_failed(claim, evidence):
         return {**row, "verdict": "open", "reasons": [absent]}
     ended = []
     for item in claim["evidence"]:

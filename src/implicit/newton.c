@@ -242,13 +242,22 @@ static cipc_status drive_penalty(cipc_stepper *s, minimisation *m, bool converge
     return energy_now(s, &m->energy, error);
 }
 
+/* Was the step limited by a tetrahedron of the fixed-corotational energy? */
+static bool is_pressed_flat(const cipc_stepper *s)
+{
+    return s->limit.what && strcmp(s->limit.what, "inversion") == 0 && s->model->bodies[s->model->node_body[s->limit.nodes[0]]].material.volume == CIPC_VOLUME_COROTATIONAL;
+}
+
 static cipc_status not_converged(const cipc_stepper *s, const minimisation *m, cipc_error *error)
 {
     char place[PLACE_SIZE], limit[LIMIT_SIZE];
     name_step(s, place);
     describe_limit(s, limit);
-    return cipc_fail(error, CIPC_E_NOT_CONVERGED, place, "not converged after %d iterations: residual %.3g m/s, tolerance %.3g%s", m->iteration, m->residual,
-                     s->options.newton_tolerance, limit);
+    cipc_status status = cipc_fail(error, CIPC_E_NOT_CONVERGED, place, "not converged after %d iterations: residual %.3g m/s, tolerance %.3g%s", m->iteration, m->residual,
+                                   s->options.newton_tolerance, limit);
+    /* The fixed-corotational energy of a flat tetrahedron is finite: its minimum may lie beyond, where no step may go, and more iterations would only come nearer to flat. */
+    if (is_pressed_flat(s)) cipc_fail_remedy(error, "give the volume the model neo-hookean, which resists being pressed flat, or shorten time_step");
+    return status;
 }
 
 cipc_status cipc_newton(cipc_stepper *s, cipc_error *error)

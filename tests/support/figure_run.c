@@ -86,10 +86,8 @@ static void run_here(figure_run *run, const char *file, const char *const *overr
     scene_outcome_free(&outcome);
 }
 
-/* Is it among those of $CIPC_RUNS_SELECTED, if that is there? */
-static bool is_selected(const char *name)
+bool figure_run_selected(const char *name, const char *selected)
 {
-    const char *selected = getenv("CIPC_RUNS_SELECTED");
     const size_t length = strlen(name);
     for (const char *p = selected; p != NULL; p = strchr(p, ' ')) {
         p += *p == ' ';
@@ -100,7 +98,7 @@ static bool is_selected(const char *name)
 
 figure_run figure_run_of(const char *name, const char *scene, const char *const *overrides)
 {
-    if (!is_selected(name)) skip();
+    if (!figure_run_selected(name, getenv("CIPC_RUNS_SELECTED"))) skip();
     const char *all[FIGURE_OVERRIDES + 2] = {NULL}, *runs = getenv("CIPC_RUNS");
     char file[PATH_SIZE], size[64], folder[FOLDER_SIZE];
     int count = 0;

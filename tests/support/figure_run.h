@@ -17,10 +17,13 @@ typedef struct figure_run {
 } figure_run;
 
 /* The scene tests/scenes/SCENE.json at figure_size(), with overrides (NULL-terminated, at most FIGURE_OVERRIDES). If $CIPC_RUNS names a folder in which RUN is the output of a complete
- * run of this very scene (the same text when resolved), its last frame; otherwise it is run here, one thread, every monitor on. Fails the test if a step or an invariant fails. If $CIPC_RUNS_SELECTED is there and
- * RUN is not one of its words, the test is skipped. */
+ * run of this very scene (the same text when resolved), its last frame; otherwise it is run here, one thread, every monitor on. Fails the test if a step or an invariant fails. If RUN is not
+ * selected by $CIPC_RUNS_SELECTED, the test is skipped. */
 figure_run figure_run_of(const char *run, const char *scene, const char *const *overrides);
 void figure_run_free(figure_run *run);
+
+/* Is it one of the words of `selected`, which a space parts? NULL selects everything. */
+bool figure_run_selected(const char *run, const char *selected);
 
 /* The body of this name; fails the test if there is none. */
 const cipc_body *figure_body(const figure_run *run, const char *name);
