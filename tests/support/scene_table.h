@@ -4,9 +4,10 @@
 
 #include "support/scene_run.h"
 
-/* What a 1 % fault (scene_fault.h) cannot be seen by: its name, and why. */
+/* A 1 % fault (scene_fault.h) that cannot be seen: its name, and why. With `seen_by`, whether it is seen is drawn by the last bits, so by BLAS kernels too, and says nothing: then that
+ * other variant, which has the same fault, must see it. */
 typedef struct scene_unfelt {
-    const char *fault, *reason;
+    const char *fault, *reason, *seen_by;
 } scene_unfelt;
 
 enum { SCENE_UNFELT = 8 };
