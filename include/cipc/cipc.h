@@ -9,6 +9,7 @@
 #include "cipc/oracle.h"
 #include "cipc/contact.h"
 #include "cipc/implicit.h"
+#include "cipc/asynchronous.h"
 #include "cipc/invariant.h"
 #include "cipc/scene.h"
 #include "cipc/output.h"

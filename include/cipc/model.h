@@ -18,7 +18,8 @@ typedef enum cipc_body_kind {
     CIPC_BODY_VOLUME        /* tetrahedra; its surface triangles meet what is outside */
 } cipc_body_kind;
 
-typedef enum cipc_membrane_model { CIPC_MEMBRANE_NONE = 0, CIPC_MEMBRANE_NEO_HOOKEAN, CIPC_MEMBRANE_STVK, CIPC_MEMBRANE_ORTHOTROPIC } cipc_membrane_model;
+typedef enum cipc_membrane_model { CIPC_MEMBRANE_NONE = 0, CIPC_MEMBRANE_NEO_HOOKEAN, CIPC_MEMBRANE_STVK, CIPC_MEMBRANE_ORTHOTROPIC,
+    CIPC_MEMBRANE_SPRINGS /* a spring along every edge (SPEC A.8); not for the implicit method */ } cipc_membrane_model;
 typedef enum cipc_volume_model { CIPC_VOLUME_COROTATIONAL = 0, CIPC_VOLUME_NEO_HOOKEAN } cipc_volume_model;
 
 /* Which constant multiplies the hinge energy k (theta - thetabar)^2 ebar / hbar (SPEC F1): "plate" k = D/6, "cipc" k = D/2, D = E t^3 / (12 (1 - nu^2)). */
@@ -110,6 +111,14 @@ typedef struct cipc_stitching {
     double stiffness;                     /* k, N/m */
 } cipc_stitching;
 
+/* A constant force on each of a set of nodes, while a window of time is open. */
+typedef struct cipc_load {
+    int node_count;
+    int *nodes;                           /* global node indices, ascending */
+    double force[3];                      /* N, on each node */
+    double begin, end;                    /* s; end may be INFINITY */
+} cipc_load;
+
 typedef struct cipc_body {
     char name[CIPC_NAME_SIZE];
     cipc_body_kind kind;
@@ -158,6 +167,8 @@ typedef struct cipc_model {
     int (*links)[2];                      /* nodes that are sewn to each other: both orders, ascending */
     int dirichlet_count;
     cipc_dirichlet_set *dirichlet;        /* the fixed bodies first, one set each, then the scene's */
+    int load_count;
+    cipc_load *loads;
 } cipc_model;
 
 /* Everything that changes in time and must survive a restart. */
@@ -170,6 +181,20 @@ typedef struct cipc_state {
     double strain_stiffness_factor;       /* multiplies every body's strain_stiffness; starts at 1 (SPEC C.2) */
 } cipc_state;
 
+/* How all nodes moved from one instant to another: straight and evenly from each of its breaks to the next, a node without breaks all the way. */
+typedef struct cipc_path_break {
+    double time;                          /* s */
+    int node;
+    double x[3];                          /* m */
+} cipc_path_break;
+typedef struct cipc_paths {
+    double begin, end;                    /* s, begin <= end */
+    int node_count;
+    const double *from, *to;              /* 3 * node_count: at begin and at end */
+    long break_count;
+    const cipc_path_break *breaks;        /* begin <= time <= end, ascending; of one node at one time the position is the same */
+} cipc_paths;
+
 /* Build a model from bodies: lumped masses, unique edges, hinges (of shells' edges with exactly two triangles of consistent or mended orientation;
  * edges with three or more triangles get none), joints of rods, surfaces of volumes, areas. CIPC_E_BAD_MESH on an index out of range, an element with a repeated node or
  * of no size at rest (a tetrahedron: of none or negative), a segment given twice, a node that no element uses; CIPC_E_OUT_OF_RANGE on non-finite or non-positive numbers. pair_friction starts from the bodies' own coefficients. */
@@ -180,6 +205,8 @@ void cipc_model_destroy(cipc_model *model);
 void cipc_model_set_friction(cipc_model *model, int body_a, int body_b, double mu);
 /* Append a Dirichlet set (nodes and motions are copied; nodes are sorted and made unique). */
 cipc_status cipc_model_add_dirichlet(cipc_model *model, const cipc_dirichlet_set *set, cipc_error *error);
+/* Append a load (nodes are copied, sorted and made unique). CIPC_E_OUT_OF_RANGE on a bad index, force or window. */
+cipc_status cipc_model_add_load(cipc_model *model, const cipc_load *load, cipc_error *error);
 /* Let a pair of bodies (or a body with itself) pass through each other. */
 void cipc_model_set_apart(cipc_model *model, int body_a, int body_b);
 /* Sew nodes to edges. CIPC_E_OUT_OF_RANGE on a bad index, ratio or stiffness: none is added then. */

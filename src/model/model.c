@@ -197,8 +197,9 @@ void cipc_model_destroy(cipc_model *m)
         cipc_free(m->dirichlet[s].motions);
         cipc_free(m->dirichlet[s].track.frames);
     }
+    for (int i = 0; i < m->load_count; i++) cipc_free(m->loads[i].nodes);
     void *blocks[] = {m->bodies, m->pair_friction, m->rest, m->mass, m->node_body, m->triangles, m->triangle_body, m->edges,
                       m->hinges, m->joints, m->tetrahedra, m->node_area, m->edge_area, m->node_weight, m->edge_weight, m->interior, m->pair_apart, m->stitches,
-                      m->links, m->dirichlet, m};
+                      m->links, m->dirichlet, m->loads, m};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) cipc_free(blocks[i]);
 }
