@@ -1,0 +1,301 @@
+/* A pair of primitives: which of its layers are active, and the certificate that the next one is out of reach: a separating slab that travels with the pair (SPEC A.6, A.7, F8;
+ * docs/theory/asynchronous.md, "Slabs"). */
+#include "asynchronous/integrator.h"
+
+#include <string.h>
+
+/* A layer is activated this fraction of the way to the next one early, so that no pair stays just short of it, certified for ever shorter times (SPEC A.6). */
+static const double early_fraction = 1e-3;
+/* And at least this multiple of the largest coordinate: 64 units in the last place, well above what positions and distances are rounded by. */
+static const double early_rounding = 0x1p-47;
+
+static double thickness_of(const cipc_asynchronous *a, int layer) { return a->options.thickness * a->eta[layer]; }
+
+static double early(const cipc_asynchronous *a, int layer)
+{
+    return fmax(early_fraction * (thickness_of(a, layer) - thickness_of(a, layer + 1)), early_rounding * a->scale);
+}
+
+/* ---- Lists of the pairs in use, and of those of a node ------------------------------------------------------------------------------------ */
+
+static bool grow(asynchronous_pairs *p)
+{
+    const int capacity = p->capacity > 0 ? 2 * p->capacity : 64;
+    asynchronous_pair *pair = cipc_realloc(p->pair, (size_t)capacity, sizeof *pair);
+    if (pair) p->pair = pair;
+    int *unused = cipc_realloc(p->unused, (size_t)capacity, sizeof *unused);
+    if (unused) p->unused = unused;
+    int *live = cipc_realloc(p->live, (size_t)capacity, sizeof *live);
+    if (live) p->live = live;
+    if (!pair || !unused || !live) return false;
+    p->capacity = capacity;
+    return true;
+}
+
+static bool add_incidence(asynchronous_pairs *pairs, int number, int place, int node)
+{
+    struct asynchronous_incidence *list = &pairs->of_node[node];
+    if (list->count == list->capacity) {
+        const int capacity = list->capacity > 0 ? 2 * list->capacity : 8;
+        int *grown = cipc_realloc(list->pairs, (size_t)capacity, sizeof *grown);
+        if (!grown) return false;
+        list->pairs = grown;
+        list->capacity = capacity;
+    }
+    pairs->pair[number].chain[place] = list->count;
+    list->pairs[list->count++] = 4 * number + place;
+    return true;
+}
+
+static void remove_incidence(asynchronous_pairs *pairs, int number, int place)
+{
+    asynchronous_pair *pair = &pairs->pair[number];
+    struct asynchronous_incidence *list = &pairs->of_node[pair->nodes[place]];
+    const int at = pair->chain[place], last = list->pairs[--list->count];
+    list->pairs[at] = last;
+    pairs->pair[last / 4].chain[last % 4] = at;
+}
+
+static int take_number(asynchronous_pairs *p)
+{
+    if (p->unused_count > 0) return p->unused[--p->unused_count];
+    if (p->count == p->capacity && !grow(p)) return -1;
+    return p->count++;
+}
+
+static double lightest(const cipc_asynchronous *a, const int *nodes, int count)
+{
+    double mass = INFINITY;
+    for (int i = 0; i < count; i++)
+        if (a->nodes[nodes[i]].inverse_mass > 0) mass = fmin(mass, 1 / a->nodes[nodes[i]].inverse_mass);
+    return mass;
+}
+
+/* What is prescribed now may be released later: its own mass then counts, so it counts from the beginning. */
+static double lightest_ever(const cipc_asynchronous *a, const int *nodes, int count)
+{
+    double mass = INFINITY;
+    for (int i = 0; i < count; i++)
+        if (!a->model->bodies[a->model->node_body[nodes[i]]].fixed) mass = fmin(mass, a->model->mass[nodes[i]]);
+    return mass < INFINITY ? mass : lightest(a, nodes, count);
+}
+
+static void describe(const cipc_asynchronous *a, asynchronous_pair *pair, cipc_pair_kind kind, const int *nodes)
+{
+    const cipc_model *m = a->model;
+    const int count = cipc_pair_nodes(kind), second = nodes[cipc_pair_first_nodes(kind)];
+    pair->kind = kind;
+    for (int i = 0; i < 4; i++) pair->nodes[i] = i < count ? nodes[i] : -1;
+    pair->offset = cipc_model_pair_offset(m, nodes[0], second);
+    pair->friction = m->pair_friction[m->node_body[nodes[0]] * m->body_count + m->node_body[second]];
+    pair->mass = lightest_ever(a, nodes, count);
+    pair->first_step = cipc_layer_step(a->options.stiffness, pair->mass, a->options.layer_factor, 1);
+    pair->layers = 0;
+    pair->checked = a->flushes;
+}
+
+/* Layers that the reference without culling has at all times. */
+static void activate_always(cipc_asynchronous *a, int number)
+{
+    for (int l = 0; l < a->options.always_layers && !a->status; l++) asynchronous_pair_activate(a, number);
+}
+
+int asynchronous_pair_create(cipc_asynchronous *a, cipc_pair_kind kind, const int *nodes, uint64_t order)
+{
+    asynchronous_pairs *pairs = &a->pairs;
+    const int number = take_number(pairs);
+    bool good = number >= 0;
+    if (good) {
+        asynchronous_pair *pair = &pairs->pair[number];
+        *pair = (asynchronous_pair){0};
+        describe(a, pair, kind, nodes);
+        pair->event = asynchronous_queue_add(&a->queue, ASYNCHRONOUS_RANK_SLAB, order, number);
+        good = pair->event >= 0;
+        pair->index_in_live = pairs->live_count;
+        pairs->live[pairs->live_count++] = number;
+    }
+    for (int i = 0; good && i < cipc_pair_nodes(kind); i++) good = add_incidence(pairs, number, i, nodes[i]);
+    if (!good) {
+        asynchronous_fail(a, CIPC_E_OUT_OF_MEMORY, "no memory for another pair near contact");
+        return -1;
+    }
+    if (a->options.always_layers > 0) activate_always(a, number);
+    else asynchronous_pair_certify(a, number);
+    return number;
+}
+
+void asynchronous_pair_destroy(cipc_asynchronous *a, int number)
+{
+    asynchronous_pairs *pairs = &a->pairs;
+    asynchronous_pair *pair = &pairs->pair[number];
+    while (pair->layers > 0) asynchronous_pair_deactivate(a, number);
+    cipc_free(pair->layer);
+    asynchronous_queue_drop(&a->queue, pair->event);
+    for (int i = 0; i < cipc_pair_nodes(pair->kind); i++) remove_incidence(pairs, number, i);
+    const int last = pairs->live[--pairs->live_count];
+    pairs->live[pair->index_in_live] = last;
+    pairs->pair[last].index_in_live = pair->index_in_live;
+    pairs->unused[pairs->unused_count++] = number;
+}
+
+void asynchronous_pairs_free(cipc_asynchronous *a)
+{
+    asynchronous_pairs *pairs = &a->pairs;
+    for (int i = 0; i < pairs->live_count; i++) cipc_free(pairs->pair[pairs->live[i]].layer);
+    for (int i = 0; pairs->of_node && i < a->model->node_count; i++) cipc_free(pairs->of_node[i].pairs);
+    void *blocks[] = {pairs->pair, pairs->unused, pairs->live, pairs->of_node};
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) cipc_free(blocks[i]);
+}
+
+/* ---- Layers ------------------------------------------------------------------------------------------------------------------------------- */
+
+static double layer_step(const cipc_asynchronous *a, const asynchronous_pair *pair, int layer) { return pair->first_step * a->layer_rate[layer]; }
+
+cipc_contact_place asynchronous_pair_place(const cipc_asynchronous *a, int number)
+{
+    const asynchronous_pair *pair = &a->pairs.pair[number];
+    double x[12];
+    asynchronous_gather(a, pair->nodes, cipc_pair_nodes(pair->kind), x);
+    cipc_contact_place place = {.layers = pair->layers, .kind = pair->kind, .step = layer_step(a, pair, pair->layers > 0 ? pair->layers : 1)};
+    memcpy(place.nodes, pair->nodes, sizeof place.nodes);
+    place.gap = asynchronous_closest_points(pair->kind, x).distance - pair->offset;
+    return place;
+}
+
+/* Room for the next layer, doubled when full. */
+static bool make_room(asynchronous_pair *pair)
+{
+    if (pair->layers < pair->layer_capacity) return true;
+    const int capacity = pair->layer_capacity > 0 ? 2 * pair->layer_capacity : 4;
+    asynchronous_layer *grown = cipc_realloc(pair->layer, (size_t)capacity, sizeof *grown);
+    if (!grown) return false;
+    pair->layer = grown;
+    pair->layer_capacity = capacity;
+    return true;
+}
+
+static void note_depth(cipc_asynchronous *a, int number)
+{
+    const asynchronous_pair *pair = &a->pairs.pair[number];
+    if (pair->layers == 1 && ++a->pairs.in_contact > a->report.max_contacts) a->report.max_contacts = a->pairs.in_contact;
+    if (pair->layers <= a->report.layers) return;
+    a->report.layers = pair->layers;
+    a->report.deepest = asynchronous_pair_place(a, number);
+}
+
+/* The next layer's clock has been ticking all along; from now on its ticks count. */
+bool asynchronous_pair_activate(cipc_asynchronous *a, int number)
+{
+    asynchronous_pair *pair = &a->pairs.pair[number];
+    const int l = pair->layers + 1;
+    const double h = layer_step(a, pair, l);
+    if (l >= ASYNCHRONOUS_MOST_LAYERS || h < 4 * 0x1p-52 * fabs(a->now)) {
+        asynchronous_fail(a, CIPC_E_NO_PROGRESS, "layer %d with steps of %.3g s is needed: time no longer resolves it", l, h);
+        return false;
+    }
+    const asynchronous_event slab = a->queue.events[pair->event];
+    const int event = make_room(pair) ? asynchronous_queue_add(&a->queue, ASYNCHRONOUS_RANK_PENALTY + (uint32_t)l, slab.order, number) : -1;
+    if (event < 0) {
+        asynchronous_fail(a, CIPC_E_OUT_OF_MEMORY, "no memory for another layer");
+        return false;
+    }
+    asynchronous_layer *layer = &pair->layer[pair->layers++];
+    layer->event = event;
+    layer->k = asynchronous_first_tick(a->options.mirror, h, a->now);
+    asynchronous_queue_schedule(&a->queue, event, asynchronous_tick_time(a->options.mirror, h, layer->k));
+    a->report.activations++;
+    note_depth(a, number);
+    return true;
+}
+
+void asynchronous_pair_deactivate(cipc_asynchronous *a, int number)
+{
+    asynchronous_pair *pair = &a->pairs.pair[number];
+    asynchronous_queue_drop(&a->queue, pair->layer[--pair->layers].event);
+    if (pair->layers == 0) a->pairs.in_contact--;
+    a->report.deactivations++;
+}
+
+/* ---- The slab ----------------------------------------------------------------------------------------------------------------------------- */
+
+/* How far inside its half space a node of the pair is at time t, less half the slab. The first primitive is on the side of +n. */
+static double clearance(const cipc_asynchronous *a, const asynchronous_pair *pair, int place, double t)
+{
+    const asynchronous_node *node = &a->nodes[pair->nodes[place]];
+    const double *n = pair->normal, dt = t - node->t;
+    const double along = n[0] * (node->q[0] + dt * node->v[0]) + n[1] * (node->q[1] + dt * node->v[1]) + n[2] * (node->q[2] + dt * node->v[2]);
+    const double above = along - pair->along - pair->drift * (t - pair->since);
+    return (place < cipc_pair_first_nodes(pair->kind) ? above : -above) - pair->half;
+}
+
+static bool is_kept(const cipc_asynchronous *a, const asynchronous_pair *pair, double t)
+{
+    const int count = cipc_pair_nodes(pair->kind);
+    for (int i = 0; i < count; i++)
+        if (!(clearance(a, pair, i, t) >= 0)) return false;
+    return true;
+}
+
+/* How fast a node nears the slab. */
+static double approach(const cipc_asynchronous *a, const asynchronous_pair *pair, int place)
+{
+    const double along = v3_dot(pair->normal, a->nodes[pair->nodes[place]].v);
+    return place < cipc_pair_first_nodes(pair->kind) ? pair->drift - along : along - pair->drift;
+}
+
+/* When the first node enters the slab, at most a frame from now. */
+static double failure_time(const cipc_asynchronous *a, const asynchronous_pair *pair)
+{
+    double least = a->options.frame;
+    for (int i = 0; i < cipc_pair_nodes(pair->kind); i++) {
+        const double speed = approach(a, pair, i), room = clearance(a, pair, i, a->now);
+        if (speed > 0 && room < speed * least) least = fmax(room, 0) / speed;
+    }
+    return a->now + least;
+}
+
+/* Midway between the closest points, travelling with their mean velocity, as thick as the layer and what positions are rounded by. */
+static void fit_slab(const cipc_asynchronous *a, asynchronous_pair *pair, const asynchronous_closest *closest, const double *x)
+{
+    double middle = 0, drift = 0;
+    const int count = cipc_pair_nodes(pair->kind);
+    for (int i = 0; i < count; i++) { /* (a + b)/2 and (va + vb)/2 along n: the weights of b are negative */
+        middle += 0.5 * fabs(closest->c[i]) * v3_dot(closest->n, x + 3 * i);
+        drift += 0.5 * fabs(closest->c[i]) * v3_dot(closest->n, a->nodes[pair->nodes[i]].v);
+    }
+    v3_copy(pair->normal, closest->n);
+    pair->along = middle;
+    pair->drift = drift;
+    pair->since = a->now;
+    pair->half = 0.5 * (pair->offset + thickness_of(a, pair->layers + 1)) + 0.25 * early_rounding * a->scale;
+}
+
+/* No more time than the present. */
+static bool is_due(const cipc_asynchronous *a, const asynchronous_pair *pair) { return !(pair->deadline > a->now) || !is_kept(a, pair, a->now); }
+
+void asynchronous_pair_certify(cipc_asynchronous *a, int number)
+{
+    asynchronous_pair *pair = &a->pairs.pair[number];
+    double x[12];
+    asynchronous_gather(a, pair->nodes, cipc_pair_nodes(pair->kind), x);
+    const asynchronous_closest closest = asynchronous_closest_points(pair->kind, x);
+    const double gap = closest.distance - pair->offset;
+    bool certified = false;
+    while (!certified && !a->status) {
+        const int next = pair->layers + 1;
+        certified = gap > thickness_of(a, next) + early(a, next);
+        if (certified) {
+            fit_slab(a, pair, &closest, x);
+            pair->deadline = failure_time(a, pair);
+            certified = !is_due(a, pair); /* else early: always right, only wasteful */
+        }
+        if (!certified) asynchronous_pair_activate(a, number);
+    }
+    if (!a->status) asynchronous_queue_schedule(&a->queue, pair->event, pair->deadline);
+}
+
+void asynchronous_pair_check(cipc_asynchronous *a, int number)
+{
+    const asynchronous_pair *pair = &a->pairs.pair[number];
+    if (!is_kept(a, pair, pair->deadline)) asynchronous_pair_certify(a, number);
+}
