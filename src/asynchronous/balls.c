@@ -28,8 +28,8 @@ static void set_deadline(cipc_asynchronous *a, int node, const double x[3])
     asynchronous_queue_schedule(&a->queue, ball->event, ball->deadline);
 }
 
-/* A new ball about the node. What stands still and cannot be moved has one of no size. */
-static void refit(cipc_asynchronous *a, int node)
+/* A new ball about the node. What stands still and cannot be moved has one of no size. Returns how far the old one has moved and grown at most. */
+static double refit(cipc_asynchronous *a, int node)
 {
     asynchronous_ball *ball = &a->balls[node];
     const double *v = a->nodes[node].v, speed = v3_norm(v), old_radius = ball->radius;
@@ -40,10 +40,10 @@ static void refit(cipc_asynchronous *a, int node)
     v3_copy(center, x);
     if (speed > 0) v3_axpy(center, ball_lead * ball->radius / speed, v);
     v3_sub(moved, center, ball->center);
-    ball->travel += v3_norm(moved) + fabs(ball->radius - old_radius);
     v3_copy(ball->center, center);
     for (int k = 0; k < 3; k++) a->scale = fmax(a->scale, fabs(center[k]));
     set_deadline(a, node, x);
+    return v3_norm(moved) + fabs(ball->radius - old_radius);
 }
 
 void asynchronous_ball_start(cipc_asynchronous *a, int node)
@@ -71,8 +71,8 @@ void asynchronous_ball_check(cipc_asynchronous *a, int node)
 
 void asynchronous_ball_event(cipc_asynchronous *a, int node)
 {
-    refit(a, node);
+    const double travel = refit(a, node);
     asynchronous_shadow(a, node);
-    asynchronous_separation_update(a, node);
+    asynchronous_separation_update(a, node, travel);
     a->report.events[CIPC_EVENT_CELL]++;
 }

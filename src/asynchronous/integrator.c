@@ -80,7 +80,7 @@ static bool allocate(cipc_asynchronous *a)
     return true;
 }
 
-/* Balls no smaller than half of eta(1), no larger than half an element. */
+/* Balls no smaller than half of eta(1), no larger than a tenth of an element. */
 static void size_balls(cipc_asynchronous *a)
 {
     const cipc_model *m = a->model;
@@ -93,7 +93,7 @@ static void size_balls(cipc_asynchronous *a)
         v3_sub(edge, m->rest + 3 * m->edges[e][1], m->rest + 3 * m->edges[e][0]);
         for (int k = 0; k < 2; k++) {
             asynchronous_ball *ball = &a->balls[m->edges[e][k]];
-            ball->most = fmin(ball->most, 0.5 * v3_norm(edge));
+            ball->most = fmin(ball->most, 0.1 * v3_norm(edge));
         }
     }
     for (int i = 0; i < m->node_count; i++)
@@ -227,24 +227,15 @@ static cipc_status take_up(cipc_asynchronous *a, const cipc_state *state, cipc_e
 /* Certificates of the nodes whose velocities have changed; before time goes on (SPEC A.3). */
 static void look_at_certificates(cipc_asynchronous *a)
 {
-    a->flushes++;
+    const bool culling = a->options.always_layers == 0;
     double begin = asynchronous_phase_begin(a);
-    for (int i = 0; i < a->dirty_count && a->options.always_layers == 0; i++) asynchronous_ball_check(a, a->dirty_nodes[i]);
+    for (int i = 0; i < a->dirty_count && culling; i++) asynchronous_ball_check(a, a->dirty_nodes[i]);
     asynchronous_phase_end(a, CIPC_ASYNCHRONOUS_PHASE_CELL_CHECK, begin);
     begin = asynchronous_phase_begin(a);
-    for (int i = 0; i < a->dirty_count; i++) {
-        const int node = a->dirty_nodes[i];
-        a->dirty[node] = false;
-        const struct asynchronous_incidence *list = &a->pairs.of_node[node];
-        for (int k = 0; k < list->count && a->options.always_layers == 0 && !a->status; k++) {
-            asynchronous_pair *pair = &a->pairs.pair[list->pairs[k] / 4];
-            if (pair->checked == a->flushes) continue;
-            pair->checked = a->flushes;
-            asynchronous_pair_check(a, list->pairs[k] / 4);
-        }
-    }
-    a->dirty_count = 0;
+    for (int i = 0; i < a->dirty_count && culling; i++) asynchronous_pairs_check(a, a->dirty_nodes[i]);
     asynchronous_phase_end(a, CIPC_ASYNCHRONOUS_PHASE_SLAB_CHECK, begin);
+    for (int i = 0; i < a->dirty_count; i++) a->dirty[a->dirty_nodes[i]] = false;
+    a->dirty_count = 0;
 }
 
 static void execute(cipc_asynchronous *a, asynchronous_event event)
@@ -274,6 +265,15 @@ static void execute(cipc_asynchronous *a, asynchronous_event event)
     asynchronous_phase_end(a, phase, begin);
 }
 
+/* How many events the next one is timed for. */
+static int timing(cipc_asynchronous *a, asynchronous_event event)
+{
+    const bool large = event.rank == ASYNCHRONOUS_RANK_SCRIPT || event.rank == ASYNCHRONOUS_RANK_GRAVITY ||
+                       (event.rank >= ASYNCHRONOUS_RANK_ELEMENTS && event.rank < ASYNCHRONOUS_RANK_PENALTY && a->clocks[event.owner].count >= ASYNCHRONOUS_SAMPLE);
+    if (large) return 1;
+    return a->event_count++ % ASYNCHRONOUS_SAMPLE == 0 ? ASYNCHRONOUS_SAMPLE : 0;
+}
+
 static long count_events(const cipc_asynchronous *a)
 {
     long sum = 0;
@@ -297,9 +297,9 @@ static void run_until(cipc_asynchronous *a, double end)
         }
         if (a->status || next < 0 || asynchronous_queue_time(&a->queue, next) > end) break;
         a->now = asynchronous_queue_time(&a->queue, next);
-        a->sampled = a->sample++ % ASYNCHRONOUS_SAMPLE == 0;
+        a->timed = timing(a, a->queue.events[next]);
         execute(a, a->queue.events[next]);
-        if (a->sample % 1024 == 0 && count_events(a) > a->options.event_limit)
+        if (a->event_count % 1024 == 0 && count_events(a) > a->options.event_limit)
             asynchronous_fail(a, CIPC_E_NO_PROGRESS, "stalled: more than %ld events in this step", a->options.event_limit);
     }
 }

@@ -24,7 +24,6 @@ typedef struct asynchronous_node {
 typedef struct asynchronous_ball {
     double center[3], radius;
     double deadline;       /* s: a node that goes on as it does is inside until then */
-    double travel;         /* m: how far the ball can have moved or grown in all, so far */
     double least, most;    /* m: bounds of the radius */
     int event;
 } asynchronous_ball;
@@ -61,30 +60,40 @@ typedef struct asynchronous_clock {
 
 typedef struct asynchronous_layer { int64_t k; int event; } asynchronous_layer;
 
-/* Two primitives that may come near: the active layers are 1..layers, a separating slab certifies that the next one is out of reach (SPEC A.6). */
+/* A separating slab, | n.x - along - drift (t - since) | <= half, between two primitives: that the next layer is out of reach (SPEC A.6). One cache line, because every change of
+ * a node's velocity looks at all slabs that the node keeps to. */
+typedef struct asynchronous_slab {
+    double normal[3], along, drift, since, half;
+    double deadline;       /* s: kept until then if nobody's velocity changes */
+} asynchronous_slab;
+
+/* Two primitives that may come near: the active layers are 1..layers. */
 typedef struct asynchronous_pair {
     cipc_pair_kind kind;
     int nodes[4];          /* first primitive first; -1: unused */
     double offset, friction;
     double mass;           /* of its lightest node that can move */
     double first_step;     /* h(1), s; h(l) = h(1) l^(-3/2) */
-    double normal[3];      /* the slab: | n.x - along - drift (t - since) | <= half */
-    double along, drift, since, half;
-    double deadline;       /* s: kept until then if nobody's velocity changes */
-    int event;
+    int event;             /* of its slab's deadline */
+    int node_count, first_count;
     int layers, layer_capacity;
     asynchronous_layer *layer;
     int index_in_live;     /* among the pairs in use */
-    long checked;          /* the number of the flush that looked at it */
     int chain[4];          /* place in the lists of its nodes */
 } asynchronous_pair;
 
+/* A place of a node in a pair, packed: pair, place among its nodes, which primitive. */
+static inline int asynchronous_incidence_pair(int incidence) { return incidence / 8; }
+static inline int asynchronous_incidence_place(int incidence) { return incidence / 2 % 4; }
+static inline bool asynchronous_incidence_second(int incidence) { return incidence % 2 != 0; }
+
 typedef struct asynchronous_pairs {
     asynchronous_pair *pair;
+    asynchronous_slab *slab; /* of each pair */
     int count, capacity;
     int *unused, unused_count;
     int *live, live_count;
-    struct asynchronous_incidence { int *pairs; int count, capacity; } *of_node; /* pairs that a node's velocity matters to */
+    struct asynchronous_incidences { int *list; int count, capacity; } *of_node; /* pairs that a node's velocity matters to */
     int in_contact, most_in_contact;
 } asynchronous_pairs;
 
@@ -103,6 +112,7 @@ typedef struct asynchronous_leaf {
     int triangle, segment;      /* -1: not one */
     int owned_nodes[3], owned_edges[3];
     int owned_node_count, owned_edge_count;
+    double travel;              /* m: of all its balls */
 } asynchronous_leaf;
 
 typedef struct asynchronous_tree_node {
@@ -154,7 +164,6 @@ struct cipc_asynchronous {
     long *kicks;                /* node_count: instants at which a node was kicked in this step */
     bool *dirty;                /* node_count: velocity changed since its certificates were looked at */
     int *dirty_nodes, dirty_count;
-    long flushes;
     asynchronous_queue queue;
     asynchronous_set sets[ASYNCHRONOUS_SETS];
     asynchronous_clock *clocks;
@@ -180,8 +189,8 @@ struct cipc_asynchronous {
     double *window_from, *window_to, window_begin;
     /* the step under way */
     cipc_asynchronous_report report;
-    long sample;
-    bool sampled;
+    long event_count;
+    int timed;                  /* how many events the one under way is timed for; 0: it is not */
     cipc_status status;         /* the first thing that went wrong inside an event */
     cipc_error error;
 };
@@ -200,12 +209,12 @@ static inline double asynchronous_seconds(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* One event in 64 is timed, and counts for all of them. */
+/* Of small events one in 64 is timed, and counts for all of them; those of many nodes are all timed. */
 enum { ASYNCHRONOUS_SAMPLE = 64 };
-static inline double asynchronous_phase_begin(const cipc_asynchronous *a) { return a->sampled ? asynchronous_seconds() : 0; }
+static inline double asynchronous_phase_begin(const cipc_asynchronous *a) { return a->timed > 0 ? asynchronous_seconds() : 0; }
 static inline void asynchronous_phase_end(cipc_asynchronous *a, cipc_asynchronous_phase phase, double begin)
 {
-    if (a->sampled) a->report.seconds[phase] += ASYNCHRONOUS_SAMPLE * (asynchronous_seconds() - begin);
+    if (a->timed > 0) a->report.seconds[phase] += a->timed * (asynchronous_seconds() - begin);
 }
 
 /* nodes.c */
@@ -249,8 +258,8 @@ void asynchronous_pair_destroy(cipc_asynchronous *a, int pair);
 void asynchronous_pairs_free(cipc_asynchronous *a);
 /* Activate the layers in reach and certify anew that the next one is not. */
 void asynchronous_pair_certify(cipc_asynchronous *a, int pair);
-/* After a change of velocities: does the certificate hold until its deadline? If not, a new one. */
-void asynchronous_pair_check(cipc_asynchronous *a, int pair);
+/* After a change of a node's velocity: do its slabs hold until their deadlines? Those that do not are made anew. */
+void asynchronous_pairs_check(cipc_asynchronous *a, int node);
 void asynchronous_pair_deactivate(cipc_asynchronous *a, int pair);
 bool asynchronous_pair_activate(cipc_asynchronous *a, int pair);
 cipc_contact_place asynchronous_pair_place(const cipc_asynchronous *a, int pair);
@@ -285,8 +294,8 @@ int asynchronous_kdop_axis(const asynchronous_kdop *p, const asynchronous_kdop *
 
 /* separation.c */
 void asynchronous_separation_start(cipc_asynchronous *a);
-/* A node's ball has moved: the leaves that it is in, and all that is above them. */
-void asynchronous_separation_update(cipc_asynchronous *a, int node);
+/* A node's ball has moved or grown by `travel` at most: the leaves that it is in, and all that is above them. */
+void asynchronous_separation_update(cipc_asynchronous *a, int node, double travel);
 void asynchronous_broad_free(cipc_asynchronous *a);
 
 /* windows.c */

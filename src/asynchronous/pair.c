@@ -23,37 +23,40 @@ static bool grow(asynchronous_pairs *p)
     const int capacity = p->capacity > 0 ? 2 * p->capacity : 64;
     asynchronous_pair *pair = cipc_realloc(p->pair, (size_t)capacity, sizeof *pair);
     if (pair) p->pair = pair;
+    asynchronous_slab *slab = cipc_realloc(p->slab, (size_t)capacity, sizeof *slab);
+    if (slab) p->slab = slab;
     int *unused = cipc_realloc(p->unused, (size_t)capacity, sizeof *unused);
     if (unused) p->unused = unused;
     int *live = cipc_realloc(p->live, (size_t)capacity, sizeof *live);
     if (live) p->live = live;
-    if (!pair || !unused || !live) return false;
+    if (!pair || !slab || !unused || !live) return false;
     p->capacity = capacity;
     return true;
 }
 
-static bool add_incidence(asynchronous_pairs *pairs, int number, int place, int node)
+static bool add_incidence(asynchronous_pairs *pairs, int number, int place)
 {
-    struct asynchronous_incidence *list = &pairs->of_node[node];
-    if (list->count == list->capacity) {
-        const int capacity = list->capacity > 0 ? 2 * list->capacity : 8;
-        int *grown = cipc_realloc(list->pairs, (size_t)capacity, sizeof *grown);
+    asynchronous_pair *pair = &pairs->pair[number];
+    struct asynchronous_incidences *of = &pairs->of_node[pair->nodes[place]];
+    if (of->count == of->capacity) {
+        const int capacity = of->capacity > 0 ? 2 * of->capacity : 8;
+        int *grown = cipc_realloc(of->list, (size_t)capacity, sizeof *grown);
         if (!grown) return false;
-        list->pairs = grown;
-        list->capacity = capacity;
+        of->list = grown;
+        of->capacity = capacity;
     }
-    pairs->pair[number].chain[place] = list->count;
-    list->pairs[list->count++] = 4 * number + place;
+    pair->chain[place] = of->count;
+    of->list[of->count++] = 8 * number + 2 * place + (place >= pair->first_count ? 1 : 0);
     return true;
 }
 
 static void remove_incidence(asynchronous_pairs *pairs, int number, int place)
 {
     asynchronous_pair *pair = &pairs->pair[number];
-    struct asynchronous_incidence *list = &pairs->of_node[pair->nodes[place]];
-    const int at = pair->chain[place], last = list->pairs[--list->count];
-    list->pairs[at] = last;
-    pairs->pair[last / 4].chain[last % 4] = at;
+    struct asynchronous_incidences *of = &pairs->of_node[pair->nodes[place]];
+    const int at = pair->chain[place], last = of->list[--of->count];
+    of->list[at] = last;
+    pairs->pair[asynchronous_incidence_pair(last)].chain[asynchronous_incidence_place(last)] = at;
 }
 
 static int take_number(asynchronous_pairs *p)
@@ -85,13 +88,14 @@ static void describe(const cipc_asynchronous *a, asynchronous_pair *pair, cipc_p
     const cipc_model *m = a->model;
     const int count = cipc_pair_nodes(kind), second = nodes[cipc_pair_first_nodes(kind)];
     pair->kind = kind;
+    pair->node_count = count;
+    pair->first_count = cipc_pair_first_nodes(kind);
     for (int i = 0; i < 4; i++) pair->nodes[i] = i < count ? nodes[i] : -1;
     pair->offset = cipc_model_pair_offset(m, nodes[0], second);
     pair->friction = m->pair_friction[m->node_body[nodes[0]] * m->body_count + m->node_body[second]];
     pair->mass = lightest_ever(a, nodes, count);
     pair->first_step = cipc_layer_step(a->options.stiffness, pair->mass, a->options.layer_factor, 1);
     pair->layers = 0;
-    pair->checked = a->flushes;
 }
 
 /* Layers that the reference without culling has at all times. */
@@ -114,7 +118,7 @@ int asynchronous_pair_create(cipc_asynchronous *a, cipc_pair_kind kind, const in
         pair->index_in_live = pairs->live_count;
         pairs->live[pairs->live_count++] = number;
     }
-    for (int i = 0; good && i < cipc_pair_nodes(kind); i++) good = add_incidence(pairs, number, i, nodes[i]);
+    for (int i = 0; good && i < cipc_pair_nodes(kind); i++) good = add_incidence(pairs, number, i);
     if (!good) {
         asynchronous_fail(a, CIPC_E_OUT_OF_MEMORY, "no memory for another pair near contact");
         return -1;
@@ -131,7 +135,7 @@ void asynchronous_pair_destroy(cipc_asynchronous *a, int number)
     while (pair->layers > 0) asynchronous_pair_deactivate(a, number);
     cipc_free(pair->layer);
     asynchronous_queue_drop(&a->queue, pair->event);
-    for (int i = 0; i < cipc_pair_nodes(pair->kind); i++) remove_incidence(pairs, number, i);
+    for (int i = 0; i < pair->node_count; i++) remove_incidence(pairs, number, i);
     const int last = pairs->live[--pairs->live_count];
     pairs->live[pair->index_in_live] = last;
     pairs->pair[last].index_in_live = pair->index_in_live;
@@ -142,8 +146,8 @@ void asynchronous_pairs_free(cipc_asynchronous *a)
 {
     asynchronous_pairs *pairs = &a->pairs;
     for (int i = 0; i < pairs->live_count; i++) cipc_free(pairs->pair[pairs->live[i]].layer);
-    for (int i = 0; pairs->of_node && i < a->model->node_count; i++) cipc_free(pairs->of_node[i].pairs);
-    void *blocks[] = {pairs->pair, pairs->unused, pairs->live, pairs->of_node};
+    for (int i = 0; pairs->of_node && i < a->model->node_count; i++) cipc_free(pairs->of_node[i].list);
+    void *blocks[] = {pairs->pair, pairs->slab, pairs->unused, pairs->live, pairs->of_node};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) cipc_free(blocks[i]);
 }
 
@@ -218,84 +222,80 @@ void asynchronous_pair_deactivate(cipc_asynchronous *a, int number)
 
 /* ---- The slab ----------------------------------------------------------------------------------------------------------------------------- */
 
-/* How far inside its half space a node of the pair is at time t, less half the slab. The first primitive is on the side of +n. */
-static double clearance(const cipc_asynchronous *a, const asynchronous_pair *pair, int place, double t)
+/* How far inside its half space a node is at time t, less half the slab. The first primitive is on the side of +n. */
+static double clearance(const asynchronous_slab *slab, const asynchronous_node *node, bool second, double t)
 {
-    const asynchronous_node *node = &a->nodes[pair->nodes[place]];
-    const double *n = pair->normal, dt = t - node->t;
+    const double *n = slab->normal, dt = t - node->t;
     const double along = n[0] * (node->q[0] + dt * node->v[0]) + n[1] * (node->q[1] + dt * node->v[1]) + n[2] * (node->q[2] + dt * node->v[2]);
-    const double above = along - pair->along - pair->drift * (t - pair->since);
-    return (place < cipc_pair_first_nodes(pair->kind) ? above : -above) - pair->half;
-}
-
-static bool is_kept(const cipc_asynchronous *a, const asynchronous_pair *pair, double t)
-{
-    const int count = cipc_pair_nodes(pair->kind);
-    for (int i = 0; i < count; i++)
-        if (!(clearance(a, pair, i, t) >= 0)) return false;
-    return true;
+    const double above = along - slab->along - slab->drift * (t - slab->since);
+    return (second ? -above : above) - slab->half;
 }
 
 /* How fast a node nears the slab. */
-static double approach(const cipc_asynchronous *a, const asynchronous_pair *pair, int place)
+static double approach(const asynchronous_slab *slab, const asynchronous_node *node, bool second)
 {
-    const double along = v3_dot(pair->normal, a->nodes[pair->nodes[place]].v);
-    return place < cipc_pair_first_nodes(pair->kind) ? pair->drift - along : along - pair->drift;
+    const double along = v3_dot(slab->normal, node->v);
+    return second ? along - slab->drift : slab->drift - along;
 }
 
-/* When the first node enters the slab, at most a frame from now. */
-static double failure_time(const cipc_asynchronous *a, const asynchronous_pair *pair)
+/* When the first node enters the slab, at most a frame from now; now, if it has no room. */
+static double failure_time(const cipc_asynchronous *a, const asynchronous_pair *pair, const asynchronous_slab *slab)
 {
     double least = a->options.frame;
-    for (int i = 0; i < cipc_pair_nodes(pair->kind); i++) {
-        const double speed = approach(a, pair, i), room = clearance(a, pair, i, a->now);
-        if (speed > 0 && room < speed * least) least = fmax(room, 0) / speed;
+    for (int i = 0; i < pair->node_count; i++) {
+        const asynchronous_node *node = &a->nodes[pair->nodes[i]];
+        const bool second = i >= pair->first_count;
+        const double speed = approach(slab, node, second), room = clearance(slab, node, second, a->now);
+        if (!(room >= 0)) return a->now;
+        if (speed > 0 && room < speed * least) least = room / speed;
     }
     return a->now + least;
 }
 
-/* Midway between the closest points, travelling with their mean velocity, as thick as the layer and what positions are rounded by. */
-static void fit_slab(const cipc_asynchronous *a, asynchronous_pair *pair, const asynchronous_closest *closest, const double *x)
+/* Midway between the closest points, travelling with their mean velocity (F8), as thick as the layer and what positions are rounded by. */
+static void fit_slab(const cipc_asynchronous *a, const asynchronous_pair *pair, asynchronous_slab *slab, const asynchronous_closest *closest, const double *x)
 {
     double middle = 0, drift = 0;
-    const int count = cipc_pair_nodes(pair->kind);
-    for (int i = 0; i < count; i++) { /* (a + b)/2 and (va + vb)/2 along n: the weights of b are negative */
+    for (int i = 0; i < pair->node_count; i++) { /* (a + b)/2 and (va + vb)/2 along n: the weights of b are negative */
         middle += 0.5 * fabs(closest->c[i]) * v3_dot(closest->n, x + 3 * i);
         drift += 0.5 * fabs(closest->c[i]) * v3_dot(closest->n, a->nodes[pair->nodes[i]].v);
     }
-    v3_copy(pair->normal, closest->n);
-    pair->along = middle;
-    pair->drift = drift;
-    pair->since = a->now;
-    pair->half = 0.5 * (pair->offset + thickness_of(a, pair->layers + 1)) + 0.25 * early_rounding * a->scale;
+    v3_copy(slab->normal, closest->n);
+    slab->along = middle;
+    slab->drift = drift;
+    slab->since = a->now;
+    slab->half = 0.5 * (pair->offset + thickness_of(a, pair->layers + 1)) + 0.25 * early_rounding * a->scale;
+    slab->deadline = failure_time(a, pair, slab);
 }
-
-/* No more time than the present. */
-static bool is_due(const cipc_asynchronous *a, const asynchronous_pair *pair) { return !(pair->deadline > a->now) || !is_kept(a, pair, a->now); }
 
 void asynchronous_pair_certify(cipc_asynchronous *a, int number)
 {
     asynchronous_pair *pair = &a->pairs.pair[number];
+    asynchronous_slab *slab = &a->pairs.slab[number];
     double x[12];
-    asynchronous_gather(a, pair->nodes, cipc_pair_nodes(pair->kind), x);
+    asynchronous_gather(a, pair->nodes, pair->node_count, x);
     const asynchronous_closest closest = asynchronous_closest_points(pair->kind, x);
     const double gap = closest.distance - pair->offset;
     bool certified = false;
     while (!certified && !a->status) {
         const int next = pair->layers + 1;
-        certified = gap > thickness_of(a, next) + early(a, next);
-        if (certified) {
-            fit_slab(a, pair, &closest, x);
-            pair->deadline = failure_time(a, pair);
-            certified = !is_due(a, pair); /* else early: always right, only wasteful */
+        if (gap > thickness_of(a, next) + early(a, next)) {
+            fit_slab(a, pair, slab, &closest, x);
+            certified = slab->deadline > a->now;
         }
-        if (!certified) asynchronous_pair_activate(a, number);
+        if (!certified) asynchronous_pair_activate(a, number); /* perhaps early: always right, only wasteful */
     }
-    if (!a->status) asynchronous_queue_schedule(&a->queue, pair->event, pair->deadline);
+    if (!a->status) asynchronous_queue_schedule(&a->queue, pair->event, slab->deadline);
 }
 
-void asynchronous_pair_check(cipc_asynchronous *a, int number)
+/* The other nodes of a pair go on as they did, so only this one is asked. It is outside the slab now, and straight paths that are outside at the deadline too are so all the way. */
+void asynchronous_pairs_check(cipc_asynchronous *a, int node)
 {
-    const asynchronous_pair *pair = &a->pairs.pair[number];
-    if (!is_kept(a, pair, pair->deadline)) asynchronous_pair_certify(a, number);
+    const struct asynchronous_incidences *of = &a->pairs.of_node[node];
+    const asynchronous_node *n = &a->nodes[node];
+    for (int k = 0; k < of->count && !a->status; k++) {
+        const int incidence = of->list[k], number = asynchronous_incidence_pair(incidence);
+        const asynchronous_slab *slab = &a->pairs.slab[number];
+        if (!(clearance(slab, n, asynchronous_incidence_second(incidence), slab->deadline) >= 0)) asynchronous_pair_certify(a, number);
+    }
 }

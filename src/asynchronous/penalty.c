@@ -5,14 +5,14 @@
 static void relative_velocity(const cipc_asynchronous *a, const asynchronous_pair *pair, const double *c, double v[3])
 {
     for (int k = 0; k < 3; k++) v[k] = 0;
-    for (int i = 0; i < cipc_pair_nodes(pair->kind); i++) v3_axpy(v, c[i], a->nodes[pair->nodes[i]].v);
+    for (int i = 0; i < pair->node_count; i++) v3_axpy(v, c[i], a->nodes[pair->nodes[i]].v);
 }
 
 /* w = sum c_i^2 / m_i, the inverse of the mass that the two points show each other. */
 static double inverse_effective_mass(const cipc_asynchronous *a, const asynchronous_pair *pair, const double *c)
 {
     double w = 0;
-    for (int i = 0; i < cipc_pair_nodes(pair->kind); i++) w += c[i] * c[i] * a->nodes[pair->nodes[i]].inverse_mass;
+    for (int i = 0; i < pair->node_count; i++) w += c[i] * c[i] * a->nodes[pair->nodes[i]].inverse_mass;
     return w;
 }
 
@@ -29,7 +29,7 @@ static void add_friction(const cipc_asynchronous *a, const asynchronous_pair *pa
 
 static void apply(cipc_asynchronous *a, const asynchronous_pair *pair, const double *x, const double *c, const double impulse[3])
 {
-    for (int i = 0; i < cipc_pair_nodes(pair->kind); i++) {
+    for (int i = 0; i < pair->node_count; i++) {
         const double inverse_mass = a->nodes[pair->nodes[i]].inverse_mass;
         double dv[3];
         if (c[i] == 0 || !(inverse_mass > 0)) continue;
@@ -72,7 +72,7 @@ void asynchronous_penalty_tick(cipc_asynchronous *a, int number, int layer)
     asynchronous_pair *pair = &a->pairs.pair[number];
     const double h = pair->first_step * a->layer_rate[layer], eta = a->options.thickness * a->eta[layer];
     double x[12];
-    asynchronous_gather(a, pair->nodes, cipc_pair_nodes(pair->kind), x);
+    asynchronous_gather(a, pair->nodes, pair->node_count, x);
     const asynchronous_closest closest = asynchronous_closest_points(pair->kind, x);
     const double gap = closest.distance - pair->offset;
     a->report.min_gap = fmin(a->report.min_gap, gap);

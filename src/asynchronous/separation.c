@@ -88,13 +88,6 @@ static uint16_t combinations_that_meet(const cipc_asynchronous *a, const asynchr
     return (uint16_t)meets;
 }
 
-static double travel_of(const cipc_asynchronous *a, const asynchronous_leaf *leaf)
-{
-    double sum = 0;
-    for (int i = 0; i < leaf->node_count; i++) sum += a->balls[leaf->nodes[i]].travel;
-    return sum;
-}
-
 static double largest_radius(const cipc_asynchronous *a, const int *nodes, int count)
 {
     double r = 0;
@@ -114,14 +107,20 @@ static double clearance(const cipc_asynchronous *a, const asynchronous_combinati
     return asynchronous_closest_points(c->kind, x).distance - *room - reach;
 }
 
+/* Nothing that was clear of contact can have come near since it was last looked at. */
+static bool is_quiet(const cipc_asynchronous *a, const asynchronous_separation *e)
+{
+    const asynchronous_broad *b = &a->broad;
+    return b->leaves[b->tree[e->node[0]].leaf].travel + b->leaves[b->tree[e->node[1]].leaf].travel < b->overlap[e->overlap].bound;
+}
+
 /* The pairs of two overlapping leaves that may come into contact while the balls stay where they are own certificates, and no others. */
 static void look_at_overlap(cipc_asynchronous *a, const asynchronous_separation *e)
 {
     const int number = e->overlap;
     const asynchronous_leaf *p = &a->broad.leaves[a->broad.tree[e->node[0]].leaf], *q = &a->broad.leaves[a->broad.tree[e->node[1]].leaf];
     asynchronous_overlap *o = &a->broad.overlap[number];
-    const double travel = travel_of(a, p) + travel_of(a, q);
-    if (travel < o->bound) return;
+    const double travel = p->travel + q->travel;
     o->bound = INFINITY;
     for (int i = 0; i < ASYNCHRONOUS_COMBINATIONS && !a->status; i++) {
         asynchronous_combination c;
@@ -229,6 +228,7 @@ static void look_at_entry(cipc_asynchronous *a, int number)
 {
     asynchronous_broad *b = &a->broad;
     asynchronous_separation *e = &b->entry[number];
+    if (e->axis < 0 && is_quiet(a, e)) return;
     const int p = e->node[0], q = e->node[1];
     const asynchronous_kdop *dop_p = &b->tree[p].dop, *dop_q = &b->tree[q].dop;
     if (e->axis >= 0 && is_apart(dop_p, dop_q, e->axis)) return;
@@ -287,9 +287,10 @@ static void update_leaf(cipc_asynchronous *a, int leaf)
     look_at_node(a, place);
 }
 
-void asynchronous_separation_update(cipc_asynchronous *a, int node)
+void asynchronous_separation_update(cipc_asynchronous *a, int node, double travel)
 {
     asynchronous_broad *b = &a->broad;
+    for (int i = b->incident_first[node]; i < b->incident_first[node + 1]; i++) b->leaves[b->incident[i]].travel += travel;
     for (int i = b->incident_first[node]; i < b->incident_first[node + 1] && !a->status; i++) update_leaf(a, b->incident[i]);
     if (b->live_entries > LIST_GROWTH * b->fresh_entries + LIST_SPARE && !a->status) asynchronous_separation_start(a);
 }
