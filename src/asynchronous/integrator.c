@@ -149,6 +149,7 @@ void cipc_asynchronous_set_monitor(cipc_asynchronous *a, cipc_paths_callback *ca
 {
     a->monitor = callback;
     a->monitor_context = context;
+    a->loaded = false; /* windows begin where a state is taken up */
 }
 
 /* ---- Taking up a state ---------------------------------------------------------------------------------------------------------------------- */
