@@ -190,12 +190,12 @@ static double largest_eigenvalue(const cipc_asynchronous *a, const asynchronous_
     return largest;
 }
 
-/* h = gamma 2/omega, and with stiffness-proportional damping beta also h <= gamma 2/(beta omega^2) (SPEC A.5, A.8). */
+/* h = gamma 2/omega; with stiffness-proportional damping beta the limit is where h^2 omega^2 + 2 h beta omega^2 = 4 (SPEC A.5, A.8). */
 static double stable_step(const cipc_asynchronous *a, const cipc_material *m, double eigenvalue)
 {
-    const double omega = sqrt(eigenvalue), most = a->options.frame;
+    const double omega = sqrt(eigenvalue), most = a->options.frame, damping = 0.5 * m->damping_stiffness * omega;
     if (!(omega > 0)) return most;
-    return fmin(most, a->options.element_factor * 2 / (omega * fmax(1, m->damping_stiffness * omega)));
+    return fmin(most, a->options.element_factor * 2 / (omega * (sqrt(1 + damping * damping) + damping)));
 }
 
 /* The longest frame / 2^k that is not longer than h. */
