@@ -344,7 +344,9 @@ cipc_status cipc_asynchronous_step(cipc_asynchronous *a, cipc_state *state, cipc
 {
     const double begin = asynchronous_seconds(), end = (state->step + 1) * a->options.frame;
     asynchronous_report_begin(a);
-    cipc_status status = is_as_left(a, state) ? CIPC_OK : take_up(a, state, error);
+    cipc_status status = CIPC_OK;
+    if (!(state->time < end)) status = cipc_fail(error, CIPC_E_OUT_OF_RANGE, "asynchronous", "the state is of t = %.9g s, but step %d ends at %.9g s", state->time, state->step + 1, end);
+    else if (!is_as_left(a, state)) status = take_up(a, state, error);
     *report = a->report;
     if (status) return status;
     run_until(a, end);
