@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include "cipc/asynchronous.h"
 #include "cipc/base.h"
 #include "cipc/implicit.h"
 #include "cipc/model.h"
@@ -110,13 +111,20 @@ cipc_status cipc_mesh_capsules(cipc_mesh *mesh, int count, const cipc_capsule *p
 typedef enum cipc_mesh_kind { CIPC_MESH_TRIANGLES = 0, CIPC_MESH_SEGMENTS, CIPC_MESH_NODES, CIPC_MESH_TETRAHEDRA } cipc_mesh_kind;
 cipc_status cipc_mesh_read(cipc_mesh *mesh, const char *path, cipc_mesh_kind kind, cipc_error *error);
 
+/* Which integrator takes the steps. */
+typedef enum cipc_method { CIPC_METHOD_C_IPC = 0, CIPC_METHOD_ASYNCHRONOUS } cipc_method;
+/* As in scene files: "c-ipc", "asynchronous". */
+const char *cipc_method_name(cipc_method method);
+
 typedef struct cipc_scene {
     char *path;                          /* of the scene file */
     char *title;                         /* "" if the scene has none */
     char size[16];                       /* which block of sizes was applied: "ci", "desk", "paper", ... or "" */
     int steps;
     unsigned long seed;
-    cipc_implicit_options options;
+    cipc_method method;
+    cipc_implicit_options options;       /* of the method c-ipc; time_step and threads are those of every method */
+    cipc_asynchronous_options asynchronous; /* of the method asynchronous */
     bool monitor;                        /* default true */
     bool monitor_swept;                  /* paths too (M5); default true */
     double monitor_reach;                /* m */
