@@ -111,11 +111,6 @@ cipc_status cipc_mesh_capsules(cipc_mesh *mesh, int count, const cipc_capsule *p
 typedef enum cipc_mesh_kind { CIPC_MESH_TRIANGLES = 0, CIPC_MESH_SEGMENTS, CIPC_MESH_NODES, CIPC_MESH_TETRAHEDRA } cipc_mesh_kind;
 cipc_status cipc_mesh_read(cipc_mesh *mesh, const char *path, cipc_mesh_kind kind, cipc_error *error);
 
-/* Which integrator takes the steps. */
-typedef enum cipc_method { CIPC_METHOD_C_IPC = 0, CIPC_METHOD_ASYNCHRONOUS } cipc_method;
-/* As in scene files: "c-ipc", "asynchronous". */
-const char *cipc_method_name(cipc_method method);
-
 typedef struct cipc_scene {
     char *path;                          /* of the scene file */
     char *title;                         /* "" if the scene has none */

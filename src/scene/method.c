@@ -3,15 +3,10 @@
 
 #include <stdio.h>
 
-static const char *const names[] = {"c-ipc", "asynchronous", NULL}; /* in the order of cipc_method */
-
-const char *cipc_method_name(cipc_method method)
-{
-    return names[method];
-}
-
 cipc_method scene_read_method(scene_reader *r, const scene_cursor *root)
 {
+    const char *names[CIPC_METHOD_COUNT + 1] = {NULL};
+    for (int m = 0; m < CIPC_METHOD_COUNT; m++) names[m] = cipc_method_name((cipc_method)m);
     return (cipc_method)scene_choice(r, root, "method", "method", names, CIPC_METHOD_C_IPC);
 }
 

@@ -21,6 +21,8 @@ static void test_names(void **state)
     (void)state;
     assert_string_equal(cipc_method_name(CIPC_METHOD_C_IPC), "c-ipc");
     assert_string_equal(cipc_method_name(CIPC_METHOD_ASYNCHRONOUS), "asynchronous");
+    assert_string_equal(cipc_method_name(CIPC_METHOD_COUNT), "unknown");
+    assert_string_equal(cipc_method_name((cipc_method)-1), "unknown");
     reject_scene(SCENE("@\"method\": \"asynchronos\", ", "\"material\": \"wool\""), NULL, CIPC_E_OUT_OF_RANGE, "method", "'asynchronous'");
 }
 
