@@ -107,6 +107,8 @@ typedef struct cipc_hinge_bending {
 void cipc_hinge_bending_init(cipc_hinge_bending *params, const double rest[12], double thickness, double young, double poisson, bool cipc_constant);
 /* Signed dihedral angle theta in (-pi, pi], 0 flat: atan2(e.(n1 x n2)/|e|, n1.n2), n1 = (v1-v0)x(v2-v0), n2 = (v0-v1)x(v3-v1). */
 double cipc_hinge_angle(const double x[12]);
+/* Its gradient; neither triangle has zero area. */
+void cipc_hinge_angle_gradient(const double x[12], double g[12]);
 double cipc_hinge_bending_value(const double x[12], const cipc_hinge_bending *params);
 void cipc_hinge_bending_gradient(const double x[12], const cipc_hinge_bending *params, double g[12]);
 void cipc_hinge_bending_hessian(const double x[12], const cipc_hinge_bending *params, double H[144]);

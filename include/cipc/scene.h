@@ -45,6 +45,14 @@ cipc_status cipc_mesh_cylinder(cipc_mesh *mesh, double radius, double length, in
  * from pole to pole, `around` nodes a ring. */
 cipc_status cipc_mesh_capsule(cipc_mesh *mesh, const double radii[2], double length, int around, int along, cipc_error *error);
 
+/* A bed of nails standing on y = 0 around the origin: count[0] x count[1] pyramids of four slivers each (no base), `spacing` from point to point in x and z, x fastest. Five nodes a
+ * nail: the base's corners, then the point, which is at y = height. Slivers face outward. */
+typedef struct cipc_nails {
+    int count[2];
+    double spacing[2], width, height; /* m */
+} cipc_nails;
+cipc_status cipc_mesh_nails(cipc_mesh *mesh, const cipc_nails *nails, cipc_error *error);
+
 /* A ring of panels around y, of a skirt or a bodice: radius `top` at y = 0, `bottom` at y = -height, m; `down` rows of cells. The panels have nodes
  * of their own along the seams. */
 typedef struct cipc_panel_ring {

@@ -96,6 +96,12 @@ static void angle_gradient(const wings *h, double g[12])
     }
 }
 
+void cipc_hinge_angle_gradient(const double x[12], double g[12])
+{
+    wings h = wings_of(x);
+    angle_gradient(&h, g);
+}
+
 void cipc_hinge_bending_gradient(const double x[12], const cipc_hinge_bending *params, double g[12])
 {
     wings h = wings_of(x);

@@ -1,0 +1,78 @@
+/* Kinetic balls: every node is certified to stay in a ball for a while. All that is coarse about contact (k-DOPs, pairs that cannot meet) rests on the balls alone, so that a change of
+ * velocity concerns one certificate of its own node and nothing above it (docs/theory/asynchronous.md, section 6). */
+#include "asynchronous/integrator.h"
+
+/* A ball is made so large that the node takes about this fraction of a frame to leave it, within bounds. */
+static const double ball_life = 1.0 / 16;
+/* Its centre lies this fraction of the radius ahead of the node. */
+static const double ball_lead = 0.5;
+/* The certificate is of a ball smaller by this fraction, which covers what positions are rounded by. */
+static const double ball_spare = 1e-6;
+
+static double certified_radius(const asynchronous_ball *ball) { return ball->radius * (1 - ball_spare); }
+
+/* When the node leaves: |q - c + s v| = r for the later s. */
+static double exit_time(const cipc_asynchronous *a, const asynchronous_ball *ball, const double x[3], const double v[3])
+{
+    double from[3];
+    v3_sub(from, x, ball->center);
+    const double r = certified_radius(ball), v2 = v3_norm2(v), b = v3_dot(from, v), room = fmax(r * r - v3_norm2(from), 0);
+    if (!(v2 > 0)) return INFINITY;
+    return a->now + fmin((sqrt(b * b + v2 * room) - b) / v2 * (1 - ball_spare), a->options.frame);
+}
+
+static void set_deadline(cipc_asynchronous *a, int node, const double x[3])
+{
+    asynchronous_ball *ball = &a->balls[node];
+    ball->deadline = exit_time(a, ball, x, a->nodes[node].v);
+    asynchronous_queue_schedule(&a->queue, ball->event, ball->deadline);
+}
+
+/* A new ball about the node. What stands still and cannot be moved has one of no size. Returns how far the old one has moved and grown at most. */
+static double refit(cipc_asynchronous *a, int node)
+{
+    asynchronous_ball *ball = &a->balls[node];
+    const double *v = a->nodes[node].v, speed = v3_norm(v), old_radius = ball->radius;
+    double x[3], center[3], moved[3];
+    asynchronous_position(&a->nodes[node], a->now, x);
+    const bool rests = !(speed > 0) && !(a->nodes[node].inverse_mass > 0);
+    ball->radius = rests ? 0 : fmin(fmax(speed * ball_life * a->options.frame, ball->least), ball->most);
+    v3_copy(center, x);
+    if (speed > 0) v3_axpy(center, ball_lead * ball->radius / speed, v);
+    v3_sub(moved, center, ball->center);
+    v3_copy(ball->center, center);
+    for (int k = 0; k < 3; k++) a->scale = fmax(a->scale, fabs(center[k]));
+    set_deadline(a, node, x);
+    return v3_norm(moved) + fabs(ball->radius - old_radius);
+}
+
+void asynchronous_ball_start(cipc_asynchronous *a, int node)
+{
+    refit(a, node);
+    asynchronous_shadow(a, node);
+}
+
+void asynchronous_ball_check(cipc_asynchronous *a, int node)
+{
+    const asynchronous_ball *ball = &a->balls[node];
+    const asynchronous_node *n = &a->nodes[node];
+    double x[3], from[3];
+    if (ball->deadline < INFINITY) {
+        const double r = certified_radius(ball);
+        asynchronous_position(n, ball->deadline, x);
+        v3_sub(from, x, ball->center);
+        if (v3_norm2(from) <= r * r) return; /* inside now and then: inside all the way */
+    } else if (!(v3_norm2(n->v) > 0)) {
+        return;
+    }
+    asynchronous_position(n, a->now, x);
+    set_deadline(a, node, x);
+}
+
+void asynchronous_ball_event(cipc_asynchronous *a, int node)
+{
+    const double travel = refit(a, node);
+    asynchronous_shadow(a, node);
+    asynchronous_separation_update(a, node, travel);
+    a->report.events[CIPC_EVENT_CELL]++;
+}

@@ -1,0 +1,365 @@
+/* The asynchronous integrator: from state to state by events alone (SPEC A; docs/theory/asynchronous.md). */
+#include "asynchronous/integrator.h"
+
+#include <limits.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- Creation ------------------------------------------------------------------------------------------------------------------------------- */
+
+static cipc_status check_options(const cipc_asynchronous_options *o, cipc_error *error)
+{
+    const struct { const char *name; double value; bool good; } numbers[] = {
+        {"frame", o->frame, o->frame > 0},
+        {"thickness", o->thickness, o->thickness > 0},
+        {"stiffness", o->stiffness, o->stiffness >= 0},
+        {"layer_factor", o->layer_factor, o->layer_factor > 0},
+        {"element_factor", o->element_factor, o->element_factor > 0},
+        {"gravity_step", o->gravity_step, o->gravity_step >= 0},
+        {"script_step", o->script_step, o->script_step >= 0},
+        {"restitution", o->restitution, o->restitution >= 0 && o->restitution <= 1},
+        {"mirror", o->mirror, o->mirror >= 0},
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (!numbers[i].good || !isfinite(numbers[i].value)) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "asynchronous", "%s = %g is out of range", numbers[i].name, numbers[i].value);
+    if (o->event_limit < 1) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "asynchronous", "event_limit = %ld is out of range", o->event_limit);
+    if (o->always_layers < 0 || o->always_layers >= ASYNCHRONOUS_MOST_LAYERS) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "asynchronous", "always_layers = %d is out of range", o->always_layers);
+    return CIPC_OK;
+}
+
+static cipc_status check_model(const cipc_model *m, cipc_error *error)
+{
+    for (int b = 0; b < m->body_count; b++) {
+        const cipc_material *material = &m->bodies[b].material;
+        if (m->bodies[b].fixed) continue;
+        if (material->strain_limit > 0 || material->strain_lower_limit > 0 || material->membrane == CIPC_MEMBRANE_ORTHOTROPIC)
+            return cipc_fail(error, CIPC_E_WRONG_TYPE, m->bodies[b].name, "the asynchronous method does not know strain limits");
+        if (material->damping_mass > 0) return cipc_fail(error, CIPC_E_WRONG_TYPE, m->bodies[b].name, "the asynchronous method does not know damping by mass");
+    }
+    return CIPC_OK;
+}
+
+/* r(1) by rule: the mean free node, at rest on another, is a twentieth of eta(1) deep (SPEC A.11). */
+static double chosen_stiffness(const cipc_model *m, double thickness)
+{
+    static const double earth = 9.81 /* m/s^2: where there is no gravity */, depth = 0.05;
+    double mass = 0;
+    int count = 0;
+    for (int i = 0; i < m->node_count; i++) {
+        if (m->bodies[m->node_body[i]].fixed) continue;
+        mass += m->mass[i];
+        count++;
+    }
+    const double g = v3_norm(m->gravity);
+    return count > 0 ? mass / count * (g > 0 ? g : earth) / (depth * thickness) : 1;
+}
+
+static bool allocate(cipc_asynchronous *a)
+{
+    const size_t n = (size_t)a->model->node_count, layers = ASYNCHRONOUS_MOST_LAYERS + 3;
+    a->nodes = cipc_alloc(n, sizeof *a->nodes);
+    a->balls = cipc_alloc(n, sizeof *a->balls);
+    a->kicked = cipc_alloc(n, sizeof *a->kicked);
+    a->kicks = cipc_alloc(n, sizeof *a->kicks);
+    a->dirty = cipc_alloc(n, sizeof *a->dirty);
+    a->dirty_nodes = cipc_alloc(n, sizeof *a->dirty_nodes);
+    a->is_dirichlet = cipc_alloc(n, sizeof *a->is_dirichlet);
+    a->moves = cipc_alloc(n, sizeof *a->moves);
+    a->pairs.of_node = cipc_alloc(n, sizeof *a->pairs.of_node);
+    a->broad.shadow = cipc_alloc(n * ASYNCHRONOUS_AXES, sizeof *a->broad.shadow);
+    double **vectors[] = {&a->before, &a->acceleration, &a->out_position, &a->out_velocity, &a->target};
+    bool good = a->nodes && a->balls && a->kicked && a->kicks && a->dirty && a->dirty_nodes && a->is_dirichlet && a->moves && a->pairs.of_node && a->broad.shadow;
+    for (size_t i = 0; i < sizeof vectors / sizeof *vectors; i++) good = (*vectors[i] = cipc_alloc(3 * n, sizeof **vectors[i])) != NULL && good;
+    a->eta = cipc_alloc(layers, sizeof *a->eta);
+    a->layer_rate = cipc_alloc(layers, sizeof *a->layer_rate);
+    if (!good || !a->eta || !a->layer_rate) return false;
+    for (int l = 1; l < (int)layers; l++) {
+        a->eta[l] = cipc_layer_thickness(1, l);
+        a->layer_rate[l] = 1 / (l * sqrt(l));
+    }
+    return true;
+}
+
+/* Balls no smaller than half of eta(1), no larger than a tenth of an element. */
+static void size_balls(cipc_asynchronous *a)
+{
+    const cipc_model *m = a->model;
+    for (int i = 0; i < m->node_count; i++) {
+        a->balls[i].least = 0.5 * a->options.thickness;
+        a->balls[i].most = INFINITY;
+    }
+    for (int e = 0; e < m->edge_count; e++) {
+        double edge[3];
+        v3_sub(edge, m->rest + 3 * m->edges[e][1], m->rest + 3 * m->edges[e][0]);
+        for (int k = 0; k < 2; k++) {
+            asynchronous_ball *ball = &a->balls[m->edges[e][k]];
+            ball->most = fmin(ball->most, 0.1 * v3_norm(edge));
+        }
+    }
+    for (int i = 0; i < m->node_count; i++)
+        if (!(a->balls[i].most < INFINITY)) a->balls[i].most = 8 * a->balls[i].least; /* particles */
+    for (int i = 0; i < m->node_count; i++) a->balls[i].most = fmax(a->balls[i].most, a->balls[i].least);
+}
+
+static cipc_status create_events(cipc_asynchronous *a, cipc_error *error)
+{
+    bool good = true;
+    for (int i = 0; i < a->model->node_count && good; i++) {
+        a->balls[i].event = asynchronous_queue_add(&a->queue, ASYNCHRONOUS_RANK_CELL, (uint64_t)i, i);
+        good = a->balls[i].event >= 0;
+    }
+    return good ? CIPC_OK : cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "asynchronous", "no memory for events");
+}
+
+cipc_status cipc_asynchronous_create(cipc_asynchronous **integrator, const cipc_model *model, const cipc_asynchronous_options *options, cipc_error *error)
+{
+    *integrator = NULL;
+    cipc_status status = check_options(options, error);
+    if (!status) status = check_model(model, error);
+    if (status) return status;
+    cipc_asynchronous *a = cipc_alloc(1, sizeof *a);
+    if (!a) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "asynchronous", "no memory for the integrator");
+    a->model = model;
+    a->options = *options;
+    if (!(options->stiffness > 0)) a->options.stiffness = chosen_stiffness(model, options->thickness);
+    if (!allocate(a)) status = cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "asynchronous", "no memory for %d nodes", model->node_count);
+    if (!status) size_balls(a);
+    if (!status) status = create_events(a, error);
+    if (!status) status = asynchronous_external_create(a, error);
+    if (!status) status = asynchronous_elements_create(a, error);
+    if (!status) status = asynchronous_primitives_create(a, error);
+    if (status) cipc_asynchronous_destroy(a);
+    else *integrator = a;
+    return status;
+}
+
+void cipc_asynchronous_destroy(cipc_asynchronous *a)
+{
+    if (!a) return;
+    asynchronous_pairs_free(a);
+    asynchronous_broad_free(a);
+    asynchronous_elements_free(a);
+    asynchronous_queue_free(&a->queue);
+    void *blocks[] = {a->nodes, a->balls, a->before, a->kicked, a->kicks, a->dirty, a->dirty_nodes, a->acceleration, a->eta, a->layer_rate, a->out_position, a->out_velocity,
+                      a->is_dirichlet, a->target, a->moves, a->breaks, a->window_from, a->window_to, a};
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) cipc_free(blocks[i]);
+}
+
+void cipc_asynchronous_set_monitor(cipc_asynchronous *a, cipc_paths_callback *callback, void *context)
+{
+    a->monitor = callback;
+    a->monitor_context = context;
+}
+
+/* ---- Taking up a state ---------------------------------------------------------------------------------------------------------------------- */
+
+static bool is_as_left(const cipc_asynchronous *a, const cipc_state *state)
+{
+    const size_t size = 3 * (size_t)a->model->node_count * sizeof(double);
+    return a->loaded && a->now == state->time && memcmp(a->out_position, state->position, size) == 0 && memcmp(a->out_velocity, state->velocity, size) == 0;
+}
+
+/* The reference without culling: every pair that meets. */
+static void create_all_pairs(cipc_asynchronous *a)
+{
+    while (a->pairs.live_count > 0) asynchronous_pair_destroy(a, a->pairs.live[a->pairs.live_count - 1]);
+    for (int p = 0; p < a->broad.leaf_count; p++)
+        for (int q = p + 1; q < a->broad.leaf_count; q++)
+            for (int i = 0; i < ASYNCHRONOUS_COMBINATIONS && !a->status; i++) {
+                asynchronous_combination c;
+                if (asynchronous_combination_of(a, &a->broad.leaves[p], &a->broad.leaves[q], i, &c)) asynchronous_pair_create(a, c.kind, c.nodes, c.order);
+            }
+}
+
+static cipc_status start_contact(cipc_asynchronous *a, cipc_error *error)
+{
+    if (a->options.always_layers > 0) {
+        create_all_pairs(a);
+    } else {
+        for (int i = 0; i < a->model->node_count; i++) asynchronous_ball_start(a, i);
+        const cipc_status status = asynchronous_tree_create(a, error);
+        if (status) return status;
+        asynchronous_separation_start(a);
+    }
+    return CIPC_OK;
+}
+
+static void place_nodes(cipc_asynchronous *a, const cipc_state *state)
+{
+    for (int i = 0; i < a->model->node_count; i++) {
+        asynchronous_node *n = &a->nodes[i];
+        v3_copy(n->q, state->position + 3 * i);
+        v3_copy(n->v, state->velocity + 3 * i);
+        v3_copy(a->before + 3 * i, n->v);
+        n->t = state->time;
+        n->inverse_mass = 1 / a->model->mass[i];
+        a->dirty[i] = false;
+        a->kicked[i] = -INFINITY;
+        for (int k = 0; k < 3; k++) a->scale = fmax(a->scale, fabs(n->q[k]));
+    }
+    a->dirty_count = 0;
+}
+
+static cipc_status take_up(cipc_asynchronous *a, const cipc_state *state, cipc_error *error)
+{
+    a->loaded = false;
+    a->now = state->time;
+    a->status = CIPC_OK;
+    place_nodes(a, state);
+    cipc_paths_callback *monitor = a->monitor;
+    a->monitor = NULL; /* nothing moves yet */
+    asynchronous_script_tick(a);
+    a->monitor = monitor;
+    asynchronous_elements_start(a);
+    asynchronous_external_start(a);
+    cipc_status status = start_contact(a, error);
+    if (!status && a->status) {
+        status = a->status == CIPC_E_NO_PROGRESS ? cipc_fail(error, CIPC_E_INITIAL_GAP, "asynchronous", "at the start %s", a->error.what) : a->status;
+        if (status == a->status && error) *error = a->error;
+    }
+    if (!status) status = asynchronous_windows_start(a, error);
+    a->loaded = !status;
+    return status;
+}
+
+/* ---- Events --------------------------------------------------------------------------------------------------------------------------------- */
+
+/* Certificates of the nodes whose velocities have changed; before time goes on (SPEC A.3). */
+static void look_at_certificates(cipc_asynchronous *a)
+{
+    const bool culling = a->options.always_layers == 0;
+    double begin = asynchronous_phase_begin(a);
+    for (int i = 0; i < a->dirty_count && culling; i++) asynchronous_ball_check(a, a->dirty_nodes[i]);
+    asynchronous_phase_end(a, CIPC_ASYNCHRONOUS_PHASE_CELL_CHECK, begin);
+    begin = asynchronous_phase_begin(a);
+    for (int i = 0; i < a->dirty_count && culling; i++) asynchronous_pairs_check(a, a->dirty_nodes[i]);
+    asynchronous_phase_end(a, CIPC_ASYNCHRONOUS_PHASE_SLAB_CHECK, begin);
+    for (int i = 0; i < a->dirty_count; i++) a->dirty[a->dirty_nodes[i]] = false;
+    a->dirty_count = 0;
+}
+
+static void execute(cipc_asynchronous *a, asynchronous_event event)
+{
+    const double begin = asynchronous_phase_begin(a);
+    cipc_asynchronous_phase phase = CIPC_ASYNCHRONOUS_PHASE_INTEGRATION;
+    if (event.rank == ASYNCHRONOUS_RANK_CELL) {
+        phase = CIPC_ASYNCHRONOUS_PHASE_CELL;
+        asynchronous_ball_event(a, event.owner);
+    } else if (event.rank == ASYNCHRONOUS_RANK_SLAB) {
+        phase = CIPC_ASYNCHRONOUS_PHASE_SLAB;
+        asynchronous_pair_certify(a, event.owner);
+        a->report.events[CIPC_EVENT_SLAB]++;
+    } else if (event.rank > ASYNCHRONOUS_RANK_PENALTY) {
+        phase = CIPC_ASYNCHRONOUS_PHASE_PENALTY;
+        asynchronous_penalty_tick(a, event.owner, (int)(event.rank - ASYNCHRONOUS_RANK_PENALTY));
+    } else if (event.rank == ASYNCHRONOUS_RANK_SCRIPT) {
+        asynchronous_script_tick(a);
+        a->script_k++;
+        asynchronous_queue_schedule(&a->queue, a->script_event, asynchronous_tick_time(0, a->script_step, a->script_k));
+        a->report.events[CIPC_EVENT_SCRIPT]++;
+    } else if (event.rank == ASYNCHRONOUS_RANK_GRAVITY) {
+        asynchronous_gravity_tick(a);
+    } else {
+        asynchronous_elements_tick(a, event.owner);
+    }
+    asynchronous_phase_end(a, phase, begin);
+}
+
+/* How many events the next one is timed for. */
+static int timing(cipc_asynchronous *a, asynchronous_event event)
+{
+    const bool large = event.rank == ASYNCHRONOUS_RANK_SCRIPT || event.rank == ASYNCHRONOUS_RANK_GRAVITY ||
+                       (event.rank >= ASYNCHRONOUS_RANK_ELEMENTS && event.rank < ASYNCHRONOUS_RANK_PENALTY && a->clocks[event.owner].count >= ASYNCHRONOUS_SAMPLE);
+    if (large) return 1;
+    return a->event_count++ % ASYNCHRONOUS_SAMPLE == 0 ? ASYNCHRONOUS_SAMPLE : 0;
+}
+
+static long count_events(const cipc_asynchronous *a)
+{
+    long sum = 0;
+    for (int k = 0; k < CIPC_EVENT_COUNT; k++) sum += a->report.events[k];
+    return sum;
+}
+
+/* Every certificate is looked at again before time passes, and before certificates of the same instant are dealt with. */
+static bool is_time_for_certificates(const cipc_asynchronous *a, int next)
+{
+    return a->dirty_count > 0 && (next < 0 || asynchronous_queue_time(&a->queue, next) > a->now || a->queue.events[next].rank <= ASYNCHRONOUS_RANK_SLAB);
+}
+
+static void run_until(cipc_asynchronous *a, double end)
+{
+    while (!a->status) {
+        int next = asynchronous_queue_next(&a->queue);
+        if (is_time_for_certificates(a, next)) {
+            look_at_certificates(a);
+            next = asynchronous_queue_next(&a->queue);
+        }
+        if (a->status || next < 0 || asynchronous_queue_time(&a->queue, next) > end) break;
+        a->now = asynchronous_queue_time(&a->queue, next);
+        a->timed = timing(a, a->queue.events[next]);
+        execute(a, a->queue.events[next]);
+        if (a->event_count % 1024 == 0 && count_events(a) > a->options.event_limit)
+            asynchronous_fail(a, CIPC_E_NO_PROGRESS, "stalled: more than %ld events in this step", a->options.event_limit);
+    }
+}
+
+/* ---- Steps ---------------------------------------------------------------------------------------------------------------------------------- */
+
+static void give_back(cipc_asynchronous *a, cipc_state *state)
+{
+    asynchronous_synchronise(a, a->now);
+    for (int i = 0; i < a->model->node_count; i++) {
+        v3_copy(state->position + 3 * i, a->nodes[i].q);
+        v3_copy(state->velocity + 3 * i, a->nodes[i].v);
+    }
+    const size_t size = 3 * (size_t)a->model->node_count * sizeof(double);
+    memcpy(a->out_position, state->position, size);
+    memcpy(a->out_velocity, state->velocity, size);
+    state->time = a->now;
+}
+
+/* What stopped the step, and with it the deepest pair: where to look. */
+static cipc_status tell_failure(const cipc_asynchronous *a, const cipc_state *state, cipc_error *error)
+{
+    const cipc_contact_place *deepest = &a->report.deepest;
+    if (error) *error = a->error;
+    if (a->status != CIPC_E_NO_PROGRESS) return a->status;
+    char place[128], pair[512] = "no pair is in contact";
+    snprintf(place, sizeof place, "step %d, t = %.9g s", state->step + 1, a->now);
+    if (deepest->layers > 0) {
+        char nodes[64];
+        int used = 0;
+        for (int i = 0; i < cipc_pair_nodes(deepest->kind); i++) used += snprintf(nodes + used, sizeof nodes - (size_t)used, "%s%d", i > 0 ? " " : "", deepest->nodes[i]);
+        snprintf(pair, sizeof pair, "the deepest pair is %s of nodes %s (bodies \"%s\", \"%s\"), gap %.6g m, layer %d, steps of %.3g s", cipc_pair_name(deepest->kind), nodes,
+                 a->model->bodies[a->model->node_body[deepest->nodes[0]]].name,
+                 a->model->bodies[a->model->node_body[deepest->nodes[cipc_pair_first_nodes(deepest->kind)]]].name, deepest->gap, deepest->layers, deepest->step);
+    }
+    cipc_fail(error, a->status, place, "%s; %s", a->error.what, pair);
+    return cipc_fail_remedy(error, "check the scripted motion for an impossible squeeze; --resume goes on from the last frame, with asynchronous.events raised");
+}
+
+cipc_status cipc_asynchronous_step(cipc_asynchronous *a, cipc_state *state, cipc_asynchronous_report *report, cipc_error *error)
+{
+    const double begin = asynchronous_seconds(), end = (state->step + 1) * a->options.frame;
+    asynchronous_report_begin(a);
+    cipc_status status = is_as_left(a, state) ? CIPC_OK : take_up(a, state, error);
+    *report = a->report;
+    if (status) return status;
+    run_until(a, end);
+    if (!a->status) a->now = end;
+    if (!a->status || a->status == CIPC_E_NO_PROGRESS) {
+        status = asynchronous_windows_flush(a, a->now, error);
+        give_back(a, state);
+    }
+    a->report.total_events = count_events(a);
+    asynchronous_report_end(a, report);
+    double told = 0;
+    for (int k = 0; k < CIPC_ASYNCHRONOUS_PHASE_OTHER; k++) told += report->seconds[k];
+    report->seconds[CIPC_ASYNCHRONOUS_PHASE_OTHER] = fmax(asynchronous_seconds() - begin - told, 0);
+    a->loaded = !a->status && !status;
+    if (status) return status;
+    if (a->status) return tell_failure(a, state, error);
+    state->step++;
+    return CIPC_OK;
+}
