@@ -24,8 +24,11 @@ static void check_implicit_body(scene_reader *r, const scene_cursor *body, const
         refuse(r, &model, "the method c-ipc knows no membrane of springs", "use \"neo-hookean\" or \"stvk\", or \"method\": \"asynchronous\"");
 }
 
-static void check_asynchronous_body(scene_reader *r, const scene_cursor *body, const cipc_material *m)
+/* Of a fixed body no element is looked at. */
+static void check_asynchronous_body(scene_reader *r, const scene_cursor *body, const cipc_body_description *description)
 {
+    const cipc_material *m = &description->material;
+    if (description->fixed) return;
     scene_cursor limit = scene_member(body, "strain_limit"), membrane = scene_member(body, "membrane"), model = scene_member(&membrane, "model");
     scene_cursor damping = scene_member(body, "damping"), mass = scene_member(&damping, "mass");
     char remedy[sizeof r->error.remedy];
@@ -57,8 +60,8 @@ void scene_check_method(scene_reader *r, const scene_cursor *root, const scene_b
     else check_asynchronous(r, root, scene);
     for (int i = 0; i < bodies->entry_count; i++) {
         scene_cursor body = scene_element(&list, (size_t)i);
-        const cipc_material *m = &bodies->descriptions[bodies->entries[i].first].material;
-        if (implicit) check_implicit_body(r, &body, m);
-        else check_asynchronous_body(r, &body, m);
+        const cipc_body_description *description = &bodies->descriptions[bodies->entries[i].first];
+        if (implicit) check_implicit_body(r, &body, &description->material);
+        else check_asynchronous_body(r, &body, description);
     }
 }

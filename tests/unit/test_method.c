@@ -73,6 +73,13 @@ static void test_what_asynchronous_does_not_know(void **state)
     }
 }
 
+static void test_fixed_bodies(void **state)
+{
+    (void)state;
+    cipc_scene *s = accept_scene(SCENE(ASYNCHRONOUS, "\"material\": \"wool\", \"fixed\": true, \"strain_limit\": \"material\", \"damping\": {\"mass\": 0.1}"), NULL);
+    cipc_scene_destroy(s);
+}
+
 /* The remedy is one: what it says makes the scene good. */
 static void test_remedies(void **state)
 {
@@ -96,6 +103,7 @@ int main(void)
         cmocka_unit_test(test_what_both_know),
         cmocka_unit_test(test_what_c_ipc_does_not_know),
         cmocka_unit_test(test_what_asynchronous_does_not_know),
+        cmocka_unit_test(test_fixed_bodies),
         cmocka_unit_test(test_remedies),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
