@@ -29,7 +29,7 @@ typedef struct cipc_invariant_report {
     long pairs_checked;                         /* pairs of all kinds with d - xi <= reach */
     long crossings_checked; /* edge-triangle pairs that no separating plane was found for: decided by the exact predicate */
     long paths_checked;     /* M5: pairs of all kinds whose paths were looked at */
-    long exact_path_checks; /* of those, how many no fixed direction separates: decided by the exact time of impact */
+    long exact_path_checks; /* of those, how many no fixed direction separates, on some piece of paths with breaks: decided by the exact time of impact */
     bool lists_made;        /* the lists of candidate pairs were made anew at this look */
 } cipc_invariant_report;
 
@@ -68,6 +68,13 @@ cipc_status cipc_monitor_inversion(cipc_monitor *monitor, const double *x, cipc_
  * to its xi or below. Decided exactly. CIPC_E_VIOLATED_SWEPT; CIPC_E_VIOLATED_FINITE; CIPC_E_INDETERMINATE; fills report->paths_checked and
  * exact_path_checks. */
 cipc_status cipc_monitor_swept(cipc_monitor *monitor, const double *x_from, const double *x_to, cipc_invariant_report *report, cipc_error *error);
+
+/* M5 for paths with breaks: along the straight pieces that `paths` says, each node's from one of its own breaks to the next, no pair that meets comes to its xi or
+ * below. Decided exactly: of the paths as they are, with the places of nodes between their breaks as the ratios that they are. CIPC_E_VIOLATED_SWEPT, with the time
+ * in seconds, a lower bound of the first of the pair named; CIPC_E_VIOLATED_FINITE also on times that are not finite; CIPC_E_INDETERMINATE; CIPC_E_OUT_OF_RANGE on
+ * times out of order or outside of begin and end, on another number of nodes than the model's, and where a node would be at two places at one time;
+ * CIPC_E_OUT_OF_MEMORY. Fills report->paths_checked and exact_path_checks. */
+cipc_status cipc_monitor_paths(cipc_monitor *monitor, const cipc_paths *paths, cipc_invariant_report *report, cipc_error *error);
 
 /* M6: energy decrease between consecutive accepted points, and the residual at convergence. `noise` >= 0 is the caller's derived bound on
  * the rounding error of the difference of the two energies: after - before <= noise, decided exactly. Non-finite numbers violate. */
