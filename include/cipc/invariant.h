@@ -82,7 +82,7 @@ cipc_status cipc_monitor_energy(double before, double after, double noise, cipc_
 /* 0 <= residual <= tolerance. */
 cipc_status cipc_monitor_residual(double residual, double tolerance, cipc_error *error);
 
-/* M7: total linear momentum from step to step. What of the model changes it: "gravity", "Dirichlet nodes", "mass damping"; NULL: nothing,
+/* M7: total linear momentum from step to step. What of the model changes it: "gravity", "Dirichlet nodes", "mass damping", "loads"; NULL: nothing,
  * it is conserved. */
 const char *cipc_momentum_source(const cipc_model *model);
 /* How a step was solved: its Newton steps p ended with |p|/h <= tolerance, and v' = (x' - x)/(beta h) + ... */
@@ -95,6 +95,9 @@ typedef struct cipc_momentum_rule {
 } cipc_momentum_rule;
 /* By how much it may change in a step that ends at x, kg m/s (docs/monitors.md, "The momentum bound"). */
 double cipc_momentum_bound(const cipc_model *model, const double *x, const cipc_momentum_rule *rule);
+/* The same of a step that is made of kicks, each of which adds opposite impulses to the up to four nodes of one element or pair: what rounding may lose. energy: the largest
+ * that is known of the step, without the gravitational one, J (docs/monitors.md, "The momentum bound of kicks"). */
+double cipc_momentum_rounding(const cipc_model *model, const double *v_before, const double *v_after, long kicks, double energy);
 /* |sum m v_after - sum m v_before| <= bound, but for the rounding of the sums themselves, which are twofold; velocities [3 * node_count] are
  * finite or it is violated. *change: the left-hand side, kg m/s. CIPC_E_VIOLATED_MOMENTUM; CIPC_E_OUT_OF_RANGE on a bad bound. */
 cipc_status cipc_monitor_momentum(const cipc_model *model, const double *v_before, const double *v_after, double bound, double *change,

@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include "cipc/asynchronous.h"
 #include "cipc/base.h"
 #include "cipc/implicit.h"
 #include "cipc/model.h"
@@ -124,7 +125,9 @@ typedef struct cipc_scene {
     char size[16];                       /* which block of sizes was applied: "ci", "desk", "paper", ... or "" */
     int steps;
     unsigned long seed;
-    cipc_implicit_options options;
+    cipc_method method;
+    cipc_implicit_options options;       /* of the method c-ipc; time_step and threads are those of every method */
+    cipc_asynchronous_options asynchronous; /* of the method asynchronous */
     bool monitor;                        /* default true */
     bool monitor_swept;                  /* paths too (M5); default true */
     double monitor_reach;                /* m */
