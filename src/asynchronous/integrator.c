@@ -312,12 +312,22 @@ static bool is_time_for_certificates(const cipc_asynchronous *a, int next)
     return a->dirty_count > 0 && (next < 0 || asynchronous_queue_time(&a->queue, next) > a->now || a->queue.events[next].rank <= ASYNCHRONOUS_RANK_SLAB);
 }
 
+/* A list made afresh makes its pairs anew, whose layers then tick at the first time after this instant: when all that ticks in it has ticked. */
+static bool is_time_for_lists(const cipc_asynchronous *a, int next)
+{
+    return a->broad.stale && !a->status && (next < 0 || asynchronous_queue_time(&a->queue, next) > a->now);
+}
+
 static void run_until(cipc_asynchronous *a, double end)
 {
     while (!a->status) {
         int next = asynchronous_queue_next(&a->queue);
         if (is_time_for_certificates(a, next)) {
             look_at_certificates(a);
+            next = asynchronous_queue_next(&a->queue);
+        }
+        if (is_time_for_lists(a, next)) {
+            asynchronous_separation_start(a);
             next = asynchronous_queue_next(&a->queue);
         }
         if (a->status || next < 0 || asynchronous_queue_time(&a->queue, next) > end) break;

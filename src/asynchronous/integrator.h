@@ -146,6 +146,7 @@ typedef struct asynchronous_broad {
     double *shadow;             /* node_count * ASYNCHRONOUS_AXES: projections of the centres */
     asynchronous_separation *entry;
     int entry_count, entry_capacity, unused_entry, live_entries, fresh_entries;
+    bool stale;                 /* to be made afresh before time goes on */
     asynchronous_overlap *overlap;
     int overlap_count, overlap_capacity, unused_overlap;
 } asynchronous_broad;

@@ -158,6 +158,7 @@ static void move_someone(uint64_t *seed, cipc_asynchronous *a, double by)
     v3_axpy(n->q, 1, jump);
     random_fill(seed, n->v, 3, exp(random_uniform(seed, -5, 1)));
     asynchronous_ball_event(a, node);
+    if (a->broad.stale) asynchronous_separation_start(a); /* as the loop does before time goes on */
     assert_int_equal(a->status, CIPC_OK);
 }
 
