@@ -1,4 +1,4 @@
-/* cipc/base.h - status codes, error text, checked memory, the words for pairs of primitives.
+/* cipc/base.h - status codes, error text, checked memory, the words for pairs of primitives and for methods.
  * Floor 0. Everything above uses these; they use nothing of cipc. */
 #ifndef CIPC_BASE_H
 #define CIPC_BASE_H
@@ -121,6 +121,17 @@ typedef struct cipc_stencil_path {
     bool to_end;
     double x[12], p[12];
 } cipc_stencil_path;
+
+/* The methods that take the steps of a run, by the names they have in scenes and summaries. */
+#define CIPC_METHODS(X) X(C_IPC, "c-ipc") X(ASYNCHRONOUS, "asynchronous")
+typedef enum cipc_method {
+#define CIPC_X(name, text) CIPC_METHOD_##name,
+    CIPC_METHODS(CIPC_X)
+#undef CIPC_X
+    CIPC_METHOD_COUNT
+} cipc_method;
+/* Never NULL. */
+const char *cipc_method_name(cipc_method method);
 
 /* Version of the library, "0.1.0". */
 const char *cipc_version(void);

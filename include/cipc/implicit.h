@@ -87,6 +87,7 @@ typedef struct cipc_accepted_point {
 typedef cipc_status cipc_monitor_callback(void *context, const cipc_accepted_point *point, cipc_error *error);
 
 typedef struct cipc_stepper cipc_stepper;
+/* CIPC_E_OUT_OF_RANGE on options out of range; CIPC_E_WRONG_TYPE if the model has what the method does not know: loads, membranes of springs. The model must outlive it. */
 cipc_status cipc_stepper_create(cipc_stepper **stepper, const cipc_model *model, const cipc_implicit_options *options, cipc_error *error);
 void cipc_stepper_destroy(cipc_stepper *stepper);
 void cipc_stepper_set_monitor(cipc_stepper *stepper, cipc_monitor_callback *callback, void *context);

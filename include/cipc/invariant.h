@@ -29,7 +29,7 @@ typedef struct cipc_invariant_report {
     long pairs_checked;                         /* pairs of all kinds with d - xi <= reach */
     long crossings_checked; /* edge-triangle pairs that no separating plane was found for: decided by the exact predicate */
     long paths_checked;     /* M5: pairs of all kinds whose paths were looked at */
-    long exact_path_checks; /* of those, how many no fixed direction separates: decided by the exact time of impact */
+    long exact_path_checks; /* of those, how many no fixed direction separates, on some piece of paths with breaks: decided by the exact time of impact */
     bool lists_made;        /* the lists of candidate pairs were made anew at this look */
 } cipc_invariant_report;
 
@@ -69,13 +69,20 @@ cipc_status cipc_monitor_inversion(cipc_monitor *monitor, const double *x, cipc_
  * exact_path_checks. */
 cipc_status cipc_monitor_swept(cipc_monitor *monitor, const double *x_from, const double *x_to, cipc_invariant_report *report, cipc_error *error);
 
+/* M5 for paths with breaks: along the straight pieces that `paths` says, each node's from one of its own breaks to the next, no pair that meets comes to its xi or
+ * below. Decided exactly: of the paths as they are, with the places of nodes between their breaks as the ratios that they are. CIPC_E_VIOLATED_SWEPT, with the time
+ * in seconds, a lower bound of the first of the pair named; CIPC_E_VIOLATED_FINITE also on times that are not finite; CIPC_E_INDETERMINATE; CIPC_E_OUT_OF_RANGE on
+ * times out of order or outside of begin and end, on another number of nodes than the model's, and where a node would be at two places at one time;
+ * CIPC_E_OUT_OF_MEMORY. Fills report->paths_checked and exact_path_checks. */
+cipc_status cipc_monitor_paths(cipc_monitor *monitor, const cipc_paths *paths, cipc_invariant_report *report, cipc_error *error);
+
 /* M6: energy decrease between consecutive accepted points, and the residual at convergence. `noise` >= 0 is the caller's derived bound on
  * the rounding error of the difference of the two energies: after - before <= noise, decided exactly. Non-finite numbers violate. */
 cipc_status cipc_monitor_energy(double before, double after, double noise, cipc_error *error);
 /* 0 <= residual <= tolerance. */
 cipc_status cipc_monitor_residual(double residual, double tolerance, cipc_error *error);
 
-/* M7: total linear momentum from step to step. What of the model changes it: "gravity", "Dirichlet nodes", "mass damping"; NULL: nothing,
+/* M7: total linear momentum from step to step. What of the model changes it: "gravity", "Dirichlet nodes", "mass damping", "loads"; NULL: nothing,
  * it is conserved. */
 const char *cipc_momentum_source(const cipc_model *model);
 /* How a step was solved: its Newton steps p ended with |p|/h <= tolerance, and v' = (x' - x)/(beta h) + ... */
@@ -88,6 +95,9 @@ typedef struct cipc_momentum_rule {
 } cipc_momentum_rule;
 /* By how much it may change in a step that ends at x, kg m/s (docs/monitors.md, "The momentum bound"). */
 double cipc_momentum_bound(const cipc_model *model, const double *x, const cipc_momentum_rule *rule);
+/* The same of a step that is made of kicks, each of which adds opposite impulses to the up to four nodes of one element or pair: what rounding may lose. energy: the largest
+ * that is known of the step, without the gravitational one, J (docs/monitors.md, "The momentum bound of kicks"). */
+double cipc_momentum_rounding(const cipc_model *model, const double *v_before, const double *v_after, long kicks, double energy);
 /* |sum m v_after - sum m v_before| <= bound, but for the rounding of the sums themselves, which are twofold; velocities [3 * node_count] are
  * finite or it is violated. *change: the left-hand side, kg m/s. CIPC_E_VIOLATED_MOMENTUM; CIPC_E_OUT_OF_RANGE on a bad bound. */
 cipc_status cipc_monitor_momentum(const cipc_model *model, const double *v_before, const double *v_after, double bound, double *change,

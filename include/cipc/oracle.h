@@ -48,6 +48,19 @@ cipc_exact_impact cipc_exact_toi(const cipc_stencil_path *path, double xi, doubl
 /* YES: d > xi on all of [0, t]. The question that a step's certificate answers. */
 cipc_verdict cipc_exact_path_clear(const cipc_stencil_path *path, double xi, double t);
 
+/* A piece of paths with breaks: node i moves straight and evenly, at x at its own time start[i] and at p at stop[i], and is looked at from begin to end, which lie
+ * between them: start[i] <= begin <= end <= stop[i] (start = stop: x = p, it stays). Its places at begin and end are rational, not doubles in general. Only the
+ * numbers of cipc_pair_nodes(kind) nodes are looked at. */
+typedef struct cipc_stencil_piece {
+    cipc_pair_kind kind;
+    double begin, end;
+    double start[4], stop[4];
+    double x[12], p[12];
+} cipc_stencil_piece;
+/* As cipc_exact_toi, of all of [begin, end]; lo and hi are times like these: begin <= lo <= hi <= end; begin, begin if d <= xi there already. INDETERMINATE also if
+ * the times are not in order. */
+cipc_exact_impact cipc_exact_piece_toi(const cipc_stencil_piece *piece, double xi);
+
 /* The least distance over [0, t], m: *lo <= it <= *hi, neighbouring doubles or equal, reached about the time *at (each may be NULL). */
 cipc_verdict cipc_exact_path_minimum(const cipc_stencil_path *path, double t, double *lo, double *hi, double *at);
 

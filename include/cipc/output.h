@@ -6,6 +6,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdio.h>
+#include "cipc/asynchronous.h"
 #include "cipc/base.h"
 #include "cipc/implicit.h"
 #include "cipc/invariant.h"
@@ -52,6 +53,9 @@ cipc_status cipc_obj_write(const char *path, const cipc_model *model, const doub
 /* violation.json: which invariant broke where, and what the monitors reported of the point (report may be NULL). Written atomically. */
 cipc_status cipc_violation_write(const char *path, const cipc_accepted_point *point, double time_before,
                                  const cipc_invariant_report *report, const cipc_error *violation, cipc_error *error);
+/* The same of the method asynchronous: a window of paths from one time to another, s, or the frame at that time, both the same. */
+cipc_status cipc_asynchronous_violation_write(const char *path, int steps_taken, double time_before, const double window[2],
+                                              const cipc_invariant_report *report, const cipc_error *violation, cipc_error *error);
 
 /* Any text, written atomically (temporary name, rename). */
 cipc_status cipc_text_write(const char *path, const char *text, cipc_error *error);
@@ -60,7 +64,8 @@ cipc_status cipc_text_write(const char *path, const char *text, cipc_error *erro
 
 /* What the monitors saw during one step: the worst of all its accepted points. */
 typedef struct cipc_step_invariants {
-    long points;                    /* accepted points looked at */
+    long points;                    /* accepted points looked at; of the method asynchronous: frames and windows of paths */
+    long windows;                   /* of these, windows of paths, which M5 alone looks at (method asynchronous) */
     long energy_checks;             /* of these, points whose energy is comparable with the one before (M6) */
     long momentum_checks;           /* 1: the step's change of momentum was looked at (M7) */
     double momentum_change;         /* kg m/s */
@@ -70,6 +75,8 @@ typedef struct cipc_step_invariants {
 cipc_step_invariants cipc_step_invariants_none(void);
 /* Take in the report of one more point. */
 void cipc_step_invariants_add(cipc_step_invariants *step, const cipc_invariant_report *report);
+/* Take in the report of a window of paths. */
+void cipc_step_invariants_add_window(cipc_step_invariants *step, const cipc_invariant_report *report);
 /* Take in the lengths of the segments at that point, of bodies that are not fixed. */
 void cipc_step_invariants_add_segments(cipc_step_invariants *step, const cipc_model *model, const double *position);
 
@@ -77,8 +84,27 @@ void cipc_step_invariants_add_segments(cipc_step_invariants *step, const cipc_mo
 cipc_status cipc_stats_write(FILE *file, const cipc_state *state, const cipc_step_report *report, const cipc_step_invariants *invariants,
                              cipc_error *error);
 
+/* The same of the method asynchronous. */
+cipc_status cipc_asynchronous_stats_write(FILE *file, const cipc_state *state, const cipc_asynchronous_report *report,
+                                          const cipc_step_invariants *invariants, cipc_error *error);
+/* The keys of the quantiles of vertex steps: "min", "p5", "p25", "median", "p75", "p95", "max". */
+extern const char *const cipc_quantile_names[CIPC_QUANTILES];
+
+/* Totals that only the method asynchronous has. */
+typedef struct cipc_asynchronous_totals {
+    long events[CIPC_EVENT_COUNT], total_events;
+    long max_events;                /* of a step */
+    long activations, deactivations;
+    int layers;                     /* deepest that was active */
+    cipc_contact_place deepest;     /* the pair that was in it */
+    double min_gap;                 /* m, at any tick of a layer; INFINITY: none */
+    double smallest_step;           /* s; INFINITY: nothing ticked */
+    double seconds[CIPC_ASYNCHRONOUS_PHASE_COUNT];
+} cipc_asynchronous_totals;
+
 /* Totals of a run. */
 typedef struct cipc_run_summary {
+    cipc_method method;
     const char *scene_path;
     const char *scene_size;
     const char *scene_name;
@@ -96,7 +122,8 @@ typedef struct cipc_run_summary {
     const char *momentum_source;    /* why M7 has nothing to say, or NULL */
     int bodies_apart;               /* pairs of bodies that the scene lets pass through each other */
     int stitches;
-    long points_checked;            /* accepted line-search points that the monitors looked at */
+    long points_checked;            /* accepted line-search points that the monitors looked at; of the method asynchronous: frames and windows of paths */
+    long windows_checked;           /* of these, windows of paths */
     long energy_checks;             /* of these, points of which M6 could be checked */
     long momentum_checks;           /* steps of which M7 was */
     double max_momentum_change;     /* kg m/s, in such a step */
@@ -106,6 +133,7 @@ typedef struct cipc_run_summary {
     long exact_gap_checks, exact_strain_checks, exact_path_checks, paths_checked;
     double seconds;                 /* of wall clock, in all */
     double output_seconds, seconds_by_phase[CIPC_PHASE_COUNT];
+    cipc_asynchronous_totals asynchronous;
     long peak_memory_kb;
     int threads;
     unsigned long seed;
@@ -118,8 +146,10 @@ cipc_run_summary cipc_run_summary_default(void);
 void cipc_run_summary_of_model(cipc_run_summary *summary, const cipc_model *model);
 /* Add what one step did; invariants NULL: not monitored. */
 void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *report, const cipc_step_invariants *invariants);
+/* The same of the method asynchronous. */
+void cipc_asynchronous_summary_add(cipc_run_summary *summary, const cipc_asynchronous_report *report, const cipc_step_invariants *invariants);
 
-/* The verdict on an invariant, 1..8 for M1..M8: "holds", "violated" or "not checked" (the file adds momentum_source to that of M7). */
+/* The verdict on an invariant, 1..8 for M1..M8: "holds", "violated" or "not checked" (the file adds the reason to those of M6 and M7). */
 const char *cipc_run_summary_verdict(const cipc_run_summary *summary, int invariant);
 
 /* summary.json, written atomically. */
@@ -150,6 +180,8 @@ cipc_status cipc_ccd_record_close(cipc_ccd_record *record, cipc_error *error);
 /* Free without writing anything; an older file of that name stays. NULL is fine. */
 void cipc_ccd_record_discard(cipc_ccd_record *record);
 
+/* The progress line of the method asynchronous: step, simulated time, events, deepest layer and contacts of the step, its smallest clock, minimum gap, time left. */
+void cipc_asynchronous_progress_line(FILE *terminal, int step, int steps, double time, const cipc_asynchronous_report *report, double min_gap, double seconds_left);
 /* Progress line on a terminal: step, simulated time, Newton iterations, contacts, minimum gap, largest stretch, time left. */
 void cipc_progress_line(FILE *terminal, int step, int steps, double time, int newton_iterations, int contacts, double min_gap,
                         double max_stretch, double seconds_left);
@@ -172,5 +204,7 @@ cipc_status cipc_frames_png(const char *path, const char *trajectory_path, const
 /* Four plots over time from stats.jsonl: gap minus thickness (log), largest stretch of triangles against its limit (0: none) and of
  * segments, energies, Newton iterations. */
 cipc_status cipc_plots_png(const char *path, const char *stats_path, double strain_limit, double dhat, cipc_error *error);
+/* Six plots of the method asynchronous: gap with the layers' thickness, largest stretch, energies; the distribution of vertex steps (log), events per step, deepest layer. */
+cipc_status cipc_asynchronous_plots_png(const char *path, const char *stats_path, double thickness, cipc_error *error);
 
 #endif

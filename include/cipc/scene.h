@@ -5,6 +5,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include "cipc/asynchronous.h"
 #include "cipc/base.h"
 #include "cipc/implicit.h"
 #include "cipc/model.h"
@@ -43,6 +44,14 @@ cipc_status cipc_mesh_cylinder(cipc_mesh *mesh, double radius, double length, in
 /* Capsule about y: balls of radii[0] and radii[1] around (0, -length/2, 0) and (0, length/2, 0) and the cone that touches both; `along` equal steps
  * from pole to pole, `around` nodes a ring. */
 cipc_status cipc_mesh_capsule(cipc_mesh *mesh, const double radii[2], double length, int around, int along, cipc_error *error);
+
+/* A bed of nails standing on y = 0 around the origin: count[0] x count[1] pyramids of four slivers each (no base), `spacing` from point to point in x and z, x fastest. Five nodes a
+ * nail: the base's corners, then the point, which is at y = height. Slivers face outward. */
+typedef struct cipc_nails {
+    int count[2];
+    double spacing[2], width, height; /* m */
+} cipc_nails;
+cipc_status cipc_mesh_nails(cipc_mesh *mesh, const cipc_nails *nails, cipc_error *error);
 
 /* A ring of panels around y, of a skirt or a bodice: radius `top` at y = 0, `bottom` at y = -height, m; `down` rows of cells. The panels have nodes
  * of their own along the seams. */
@@ -116,7 +125,9 @@ typedef struct cipc_scene {
     char size[16];                       /* which block of sizes was applied: "ci", "desk", "paper", ... or "" */
     int steps;
     unsigned long seed;
-    cipc_implicit_options options;
+    cipc_method method;
+    cipc_implicit_options options;       /* of the method c-ipc; time_step and threads are those of every method */
+    cipc_asynchronous_options asynchronous; /* of the method asynchronous */
     bool monitor;                        /* default true */
     bool monitor_swept;                  /* paths too (M5); default true */
     double monitor_reach;                /* m */

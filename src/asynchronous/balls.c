@@ -1,5 +1,5 @@
 /* Kinetic balls: every node is certified to stay in a ball for a while. All that is coarse about contact (k-DOPs, pairs that cannot meet) rests on the balls alone, so that a change of
- * velocity concerns one certificate of its own node and nothing above it (docs/theory/asynchronous.md, "Broad phase"). */
+ * velocity concerns one certificate of its own node and nothing above it (docs/theory/asynchronous.md, section 6). */
 #include "asynchronous/integrator.h"
 
 /* A ball is made so large that the node takes about this fraction of a frame to leave it, within bounds. */

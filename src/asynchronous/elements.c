@@ -54,7 +54,7 @@ static void gather_rest(const cipc_model *m, const int *nodes, int count, double
 }
 
 /* What a triangle adds to the stiffness of the springs along its edges, N/m: on an equilateral mesh springs of k = sqrt(3)/2 E t, half of it from either side, make a membrane of Young's
- * modulus E and Poisson's ratio 1/3 (docs/theory/asynchronous.md (12)). */
+ * modulus E and Poisson's ratio 1/3 (docs/theory/asynchronous.md (9)). */
 static double edge_stiffness(const cipc_material *m) { return 0.25 * sqrt(3.0) * m->membrane_young * m->thickness; }
 
 static bool add_triangle(cipc_asynchronous *a, int t)

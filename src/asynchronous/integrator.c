@@ -153,6 +153,22 @@ void cipc_asynchronous_set_monitor(cipc_asynchronous *a, cipc_paths_callback *ca
 
 /* ---- Taking up a state ---------------------------------------------------------------------------------------------------------------------- */
 
+/* The deepest pair in words: where to look. */
+enum { PAIR_WORDS = 512 };
+static void name_deepest(const cipc_asynchronous *a, char words[PAIR_WORDS])
+{
+    const cipc_contact_place *deepest = &a->report.deepest;
+    char nodes[64];
+    int used = 0;
+    snprintf(words, PAIR_WORDS, "no pair is in contact");
+    if (deepest->layers == 0) return;
+    const char *first = a->model->bodies[a->model->node_body[deepest->nodes[0]]].name;
+    const char *second = a->model->bodies[a->model->node_body[deepest->nodes[cipc_pair_first_nodes(deepest->kind)]]].name;
+    for (int i = 0; i < cipc_pair_nodes(deepest->kind); i++) used += snprintf(nodes + used, sizeof nodes - (size_t)used, "%s%d", i > 0 ? " " : "", deepest->nodes[i]);
+    snprintf(words, PAIR_WORDS, "the deepest pair is %s of nodes %s (bodies \"%s\", \"%s\"), gap %.6g m, layer %d, steps of %.3g s", cipc_pair_name(deepest->kind), nodes, first, second,
+             deepest->gap, deepest->layers, deepest->step);
+}
+
 static bool is_as_left(const cipc_asynchronous *a, const cipc_state *state)
 {
     const size_t size = 3 * (size_t)a->model->node_count * sizeof(double);
@@ -200,6 +216,17 @@ static void place_nodes(cipc_asynchronous *a, const cipc_state *state)
     a->dirty_count = 0;
 }
 
+/* Pairs so near that time would not resolve the layers they are in. */
+static cipc_status tell_refusal(const cipc_asynchronous *a, cipc_error *error)
+{
+    char pair[PAIR_WORDS];
+    if (error) *error = a->error;
+    if (a->status != CIPC_E_NO_PROGRESS) return a->status;
+    name_deepest(a, pair);
+    cipc_fail(error, CIPC_E_INITIAL_GAP, "asynchronous", "at the start pairs are too near for a thickness eta(1) of %.6g m: %s", a->options.thickness, pair);
+    return cipc_fail_remedy(error, "move the bodies apart, or lower asynchronous.thickness below the elements' size");
+}
+
 static cipc_status take_up(cipc_asynchronous *a, const cipc_state *state, cipc_error *error)
 {
     a->loaded = false;
@@ -213,10 +240,7 @@ static cipc_status take_up(cipc_asynchronous *a, const cipc_state *state, cipc_e
     asynchronous_elements_start(a);
     asynchronous_external_start(a);
     cipc_status status = start_contact(a, error);
-    if (!status && a->status) {
-        status = a->status == CIPC_E_NO_PROGRESS ? cipc_fail(error, CIPC_E_INITIAL_GAP, "asynchronous", "at the start %s", a->error.what) : a->status;
-        if (status == a->status && error) *error = a->error;
-    }
+    if (!status && a->status) status = tell_refusal(a, error);
     if (!status) status = asynchronous_windows_start(a, error);
     a->loaded = !status;
     return status;
@@ -319,22 +343,14 @@ static void give_back(cipc_asynchronous *a, cipc_state *state)
     state->time = a->now;
 }
 
-/* What stopped the step, and with it the deepest pair: where to look. */
+/* What stopped the step, and the deepest pair. */
 static cipc_status tell_failure(const cipc_asynchronous *a, const cipc_state *state, cipc_error *error)
 {
-    const cipc_contact_place *deepest = &a->report.deepest;
+    char place[128], pair[PAIR_WORDS];
     if (error) *error = a->error;
     if (a->status != CIPC_E_NO_PROGRESS) return a->status;
-    char place[128], pair[512] = "no pair is in contact";
     snprintf(place, sizeof place, "step %d, t = %.9g s", state->step + 1, a->now);
-    if (deepest->layers > 0) {
-        char nodes[64];
-        int used = 0;
-        for (int i = 0; i < cipc_pair_nodes(deepest->kind); i++) used += snprintf(nodes + used, sizeof nodes - (size_t)used, "%s%d", i > 0 ? " " : "", deepest->nodes[i]);
-        snprintf(pair, sizeof pair, "the deepest pair is %s of nodes %s (bodies \"%s\", \"%s\"), gap %.6g m, layer %d, steps of %.3g s", cipc_pair_name(deepest->kind), nodes,
-                 a->model->bodies[a->model->node_body[deepest->nodes[0]]].name,
-                 a->model->bodies[a->model->node_body[deepest->nodes[cipc_pair_first_nodes(deepest->kind)]]].name, deepest->gap, deepest->layers, deepest->step);
-    }
+    name_deepest(a, pair);
     cipc_fail(error, a->status, place, "%s; %s", a->error.what, pair);
     return cipc_fail_remedy(error, "check the scripted motion for an impossible squeeze; --resume goes on from the last frame, with asynchronous.events raised");
 }

@@ -20,7 +20,7 @@ typedef struct asynchronous_node {
     double inverse_mass; /* 0: prescribed */
 } asynchronous_node;
 
-/* A node is certified to stay in a ball until its deadline; everything coarse is made of the balls (docs/theory/asynchronous.md, "Broad phase"). */
+/* A node is certified to stay in a ball until its deadline; everything coarse is made of the balls (docs/theory/asynchronous.md, section 6). */
 typedef struct asynchronous_ball {
     double center[3], radius;
     double deadline;       /* s: a node that goes on as it does is inside until then */

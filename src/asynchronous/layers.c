@@ -1,4 +1,4 @@
-/* Discrete penalty layers: thickness, stiffness, step (SPEC A.4, A.5; docs/theory/asynchronous.md (1)-(6)). */
+/* Discrete penalty layers: thickness, stiffness, step (SPEC A.4, A.5; docs/theory/asynchronous.md (3), (5), (6)). */
 #include "cipc/asynchronous.h"
 
 #include <limits.h>

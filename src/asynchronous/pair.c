@@ -1,5 +1,5 @@
 /* A pair of primitives: which of its layers are active, and the certificate that the next one is out of reach: a separating slab that travels with the pair (SPEC A.6, A.7, F8;
- * docs/theory/asynchronous.md, "Slabs"). */
+ * docs/theory/asynchronous.md, section 5). */
 #include "asynchronous/integrator.h"
 
 #include <string.h>

@@ -1,4 +1,4 @@
-/* A tick of one penalty layer of one pair (SPEC A.4, A.7, A.8; docs/theory/asynchronous.md (3), (7)-(9)). */
+/* A tick of one penalty layer of one pair (SPEC A.4, A.7, A.8; docs/theory/asynchronous.md (4), (7), (8)). */
 #include "asynchronous/integrator.h"
 
 /* Velocity of the first closest point relative to the second. */

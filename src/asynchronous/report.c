@@ -4,10 +4,24 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* The pair that the step begins with deepest. */
+static void find_deepest(cipc_asynchronous *a)
+{
+    int deepest = -1;
+    for (int i = 0; i < a->pairs.live_count; i++) {
+        const int number = a->pairs.live[i], layers = a->pairs.pair[number].layers;
+        if (layers <= a->report.layers) continue;
+        a->report.layers = layers;
+        deepest = number;
+    }
+    if (deepest >= 0) a->report.deepest = asynchronous_pair_place(a, deepest);
+}
+
 void asynchronous_report_begin(cipc_asynchronous *a)
 {
     a->report = (cipc_asynchronous_report){.min_gap = INFINITY, .smallest_step = INFINITY, .max_contacts = a->pairs.in_contact};
     for (int i = 0; i < 4; i++) a->report.deepest.nodes[i] = -1;
+    find_deepest(a);
     memset(a->kicks, 0, (size_t)a->model->node_count * sizeof *a->kicks);
 }
 

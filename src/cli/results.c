@@ -4,6 +4,7 @@
 #include <math.h>
 #include <sys/resource.h>
 #include "cli/command.h"
+#include "cli/steps.h"
 
 /* Paths of one call, freed together; `good` is false if any is missing. */
 typedef struct paths { char *trajectory, *xdmf, *stats, *frames, *plots, *summary; bool good; } paths;
@@ -55,19 +56,6 @@ cipc_status cipc_simulation_xdmf(cipc_simulation *s, cipc_error *error)
     return status;
 }
 
-/* The tightest limit of any body; 0: none is limited. */
-static double smallest_strain_limit(const cipc_model *model)
-{
-    double smallest = 0;
-    for (int b = 0; b < model->body_count; b++) {
-        const double limit = model->bodies[b].material.strain_limit;
-        if (limit > 0 && (smallest == 0 || limit < smallest)) {
-            smallest = limit;
-        }
-    }
-    return smallest;
-}
-
 /* Keep the first error; say every later one, so that none is lost. */
 static void note(cipc_status status, const cipc_error *found, cipc_status *first, cipc_error *error)
 {
@@ -93,8 +81,7 @@ static cipc_status write_pictures(cipc_simulation *s, const paths *p, cipc_error
     cipc_error found;
     cipc_status status = CIPC_OK;
     note(cipc_frames_png(p->frames, p->trajectory, scene->model, &options, &found), &found, &status, error);
-    note(cipc_plots_png(p->plots, p->stats, smallest_strain_limit(scene->model), scene->options.contact.dhat, &found), &found, &status,
-         error);
+    note(cipc_steps_of(scene->method)->plot(s, p->plots, p->stats, &found), &found, &status, error);
     return status;
 }
 

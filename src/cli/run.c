@@ -112,6 +112,16 @@ static int refused(const request *r, const char *name, const cipc_error *error)
     return cipc_verdicts_junit(r->junit, &summary, cipc_say(error));
 }
 
+/* Nothing is put to continuous collision detection where there is none: an empty file would look like a run without contact. */
+static cipc_status check_method(const request *r, const cipc_scene *scene, cipc_error *error)
+{
+    if (r->record_ccd == NULL || scene->method == CIPC_METHOD_C_IPC) {
+        return CIPC_OK;
+    }
+    cipc_fail(error, CIPC_E_USAGE, "--record-ccd", "the method %s asks nothing of continuous collision detection", cipc_method_name(scene->method));
+    return cipc_fail_remedy(error, "leave the option out, or add --set method=c-ipc");
+}
+
 static int run(const request *r, const char *command)
 {
     char name[256], directory[512];
@@ -120,6 +130,10 @@ static int run(const request *r, const char *command)
     cipc_error error;
     cipc_scene *scene = NULL;
     if (cipc_scene_load(&scene, r->scene_path, r->override_count, r->overrides, &error) != CIPC_OK) {
+        return refused(r, name, &error);
+    }
+    if (check_method(r, scene, &error) != CIPC_OK) {
+        cipc_scene_destroy(scene);
         return refused(r, name, &error);
     }
     if (r->threads > 0) {

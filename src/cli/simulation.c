@@ -7,6 +7,7 @@
 #include <time.h>
 #include "cli/command.h"
 #include "cli/interrupt.h"
+#include "cli/steps.h"
 
 double cipc_clock(void)
 {
@@ -211,6 +212,7 @@ static void begin_summary(cipc_simulation *s)
 {
     const cipc_scene *scene = s->scene;
     s->summary = cipc_run_summary_default();
+    s->summary.method = scene->method;
     s->summary.scene_path = scene->path;
     s->summary.scene_size = scene->size;
     s->summary.scene_name = s->request->scene_name;
@@ -232,7 +234,7 @@ static cipc_status prepare(cipc_simulation *s)
 {
     cipc_status status = s->request->resume ? CIPC_OK : check_start(s, &s->error); /* a resumed run is checked when its state is known */
     if (status == CIPC_OK) {
-        status = cipc_stepper_create(&s->stepper, s->scene->model, &s->scene->options, &s->error);
+        status = cipc_steps_of(s->scene->method)->create(s, &s->error);
     }
     return status == CIPC_OK ? open_run(s, &s->error) : status;
 }
@@ -247,7 +249,8 @@ static void say_interrupted(const cipc_simulation *s)
 static cipc_status prepare_memory(cipc_simulation *s)
 {
     const size_t count = 3 * (size_t)s->scene->model->node_count;
-    const bool swept = s->monitor != NULL && s->scene->monitor_swept, momentum = s->monitor != NULL && s->summary.momentum_source == NULL;
+    const bool swept = s->monitor != NULL && s->scene->monitor_swept && s->scene->method == CIPC_METHOD_C_IPC; /* the other is told whole paths */
+    const bool momentum = s->monitor != NULL && s->summary.momentum_source == NULL;
     if (swept) { s->previous = cipc_alloc(count, sizeof *s->previous); }
     if (momentum) { s->velocity = cipc_alloc(count, sizeof *s->velocity); }
     const bool good = (!swept || s->previous != NULL) && (!momentum || s->velocity != NULL);
@@ -293,6 +296,7 @@ static void clear(cipc_simulation *s)
     cipc_trajectory_close(s->trajectory, &ignored); /* still open only if something else has failed and been said */
     cipc_ccd_record_discard(s->ccd_record); /* likewise */
     cipc_stepper_destroy(s->stepper);
+    cipc_asynchronous_destroy(s->integrator);
     cipc_monitor_destroy(s->monitor);
     cipc_free(s->previous);
     cipc_free(s->velocity);

@@ -68,10 +68,21 @@ static void measure(cipc_stepper *s)
     s->mean_mass = count ? mass / count : m->mass[0];
 }
 
+/* What only another method knows would be left out silently. */
+static cipc_status check_model(const cipc_model *model, cipc_error *error)
+{
+    if (model->load_count > 0) return cipc_fail(error, CIPC_E_WRONG_TYPE, "model", "it has loads, which the implicit method does not know");
+    for (int b = 0; b < model->body_count; b++)
+        if (model->bodies[b].material.membrane == CIPC_MEMBRANE_SPRINGS)
+            return cipc_fail(error, CIPC_E_WRONG_TYPE, model->bodies[b].name, "its membrane is of springs, which the implicit method does not know");
+    return CIPC_OK;
+}
+
 cipc_status cipc_stepper_create(cipc_stepper **stepper, const cipc_model *model, const cipc_implicit_options *options, cipc_error *error)
 {
     *stepper = NULL;
     cipc_status status = check_options(options, error);
+    if (!status) status = check_model(model, error);
     if (status) return status;
     cipc_stepper *s = cipc_alloc(1, sizeof *s);
     if (!s) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "stepper", "no memory");

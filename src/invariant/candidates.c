@@ -133,7 +133,7 @@ static void widen(double *lo, double *hi, double v)
     *hi = v > *hi ? v : *hi;
 }
 
-/* Box of a primitive, inflated by r and rounded outwards; with `to`, of its straight path from x to there: a path's box is that of its ends. */
+/* Box of a primitive, inflated by r and rounded outwards; with `to`, of all of its nodes' boxes between the places in x and there: a straight path is in that of its ends. */
 static cipc_patch_box inflated_box(const int *nodes, int n, const double *x, const double *to, double r)
 {
     cipc_patch_box box;
@@ -298,19 +298,25 @@ static bool make_lists(invariant_candidates *c, const double *x)
     return true;
 }
 
-/* Have all nodes stayed within half the margin of where the lists were made? A distance then changed by at most the margin: each of its
- * two primitives moved by at most half of it. */
+/* Is a node within half the margin of where the lists were made? If all are, no distance has changed by more than the margin: each of its two primitives moved
+ * by at most half of it. */
+static inline bool is_near(const invariant_candidates *c, size_t node, const double place[3])
+{
+    /* Seven roundings in the sum of squares and in the limit: far below the 2^-40 taken off. */
+    double limit = 0.25 * c->margin * c->margin * (1 - 0x1p-40);
+    const double *made = &c->made_at[3 * node];
+    if (!(limit > SMALLEST_SQUARE)) { return memcmp(place, made, 3 * sizeof *place) == 0; }
+    double dx = place[0] - made[0], dy = place[1] - made[1], dz = place[2] - made[2];
+    return dx * dx + dy * dy + dz * dz <= limit;
+}
+
 static bool still_valid(const invariant_candidates *c, const double *x)
 {
     size_t n = (size_t)c->model->node_count;
-    /* Seven roundings in the sum of squares and in the limit: far below the 2^-40 taken off. */
-    double limit = 0.25 * c->margin * c->margin * (1 - 0x1p-40);
-    if (!c->made || !(limit > SMALLEST_SQUARE)) { return c->made && memcmp(x, c->made_at, 3 * n * sizeof *x) == 0; }
-    for (size_t i = 0; i < n; i++) {
-        double dx = x[3 * i] - c->made_at[3 * i], dy = x[3 * i + 1] - c->made_at[3 * i + 1], dz = x[3 * i + 2] - c->made_at[3 * i + 2];
-        if (!(dx * dx + dy * dy + dz * dz <= limit)) { return false; }
+    for (size_t i = 0; c->made && i < n; i++) {
+        if (!is_near(c, i, &x[3 * i])) { return false; }
     }
-    return true;
+    return c->made;
 }
 
 bool invariant_candidates_update(invariant_candidates *c, const double *x, bool *made_now)
@@ -326,6 +332,11 @@ bool invariant_candidates_update(invariant_candidates *c, const double *x, bool 
 bool invariant_candidates_valid(const invariant_candidates *c, const double *x)
 {
     return still_valid(c, x);
+}
+
+bool invariant_candidates_near(const invariant_candidates *c, int node, const double place[3])
+{
+    return c->made && is_near(c, (size_t)node, place);
 }
 
 bool invariant_candidates_sweep(invariant_candidates *c, const double *from, const double *to)

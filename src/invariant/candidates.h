@@ -55,8 +55,10 @@ bool invariant_candidates_update(invariant_candidates *c, const double *x, bool 
 
 /* Do the lists serve for x as they are? */
 bool invariant_candidates_valid(const invariant_candidates *c, const double *x);
-/* Make lists of all pairs, but edge-triangle ones, that may come within xi + reach of one another while every node moves straight from its place in `from`
- * to that in `to` (both finite). They serve for this once. False: out of memory. */
+/* Do they serve where a node is at a place? If they do for the place of every node, they do for all together. */
+bool invariant_candidates_near(const invariant_candidates *c, int node, const double place[3]);
+/* Make lists of all pairs, but edge-triangle ones, that may come within xi + reach of one another while every node stays in the box that its places in `from`
+ * and `to` (both finite) are corners of, as one that moves straight from the one to the other does. They serve for this once. False: out of memory. */
 bool invariant_candidates_sweep(invariant_candidates *c, const double *from, const double *to);
 
 /* Contact thickness of the pair of these nodes' bodies (SPEC C.4, eq. 11), m. */

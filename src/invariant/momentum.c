@@ -10,6 +10,7 @@
 static const char place[] = "monitor momentum";
 
 #define UNIT (0.5 * DBL_EPSILON)
+#define ROUNDINGS_OF_KICK 64 /* units, of the momentum of the nodes that a kick touches (docs/monitors.md, "The momentum bound of kicks") */
 
 const char *cipc_momentum_source(const cipc_model *model)
 {
@@ -19,7 +20,7 @@ const char *cipc_momentum_source(const cipc_model *model)
         if (model->bodies[b].fixed) { return "Dirichlet nodes"; }
         if (model->bodies[b].material.damping_mass > 0) { return "mass damping"; }
     }
-    return NULL;
+    return model->load_count > 0 ? "loads" : NULL;
 }
 
 double cipc_momentum_bound(const cipc_model *model, const double *x, const cipc_momentum_rule *rule)
@@ -32,6 +33,22 @@ double cipc_momentum_bound(const cipc_model *model, const double *x, const cipc_
     }
     double weight = rule->rms ? sqrt(model->node_count * mass2) : mass;
     return (rule->minimisations * weight * rule->tolerance + 8 * UNIT * moment / rule->time_step) / rule->beta;
+}
+
+/* sum m |v|. */
+static double size_of_momentum(const cipc_model *m, const double *v)
+{
+    double sum = 0;
+    for (int i = 0; i < m->node_count; i++) { sum += m->mass[i] * v3_norm(&v[3 * (size_t)i]); }
+    return sum;
+}
+
+double cipc_momentum_rounding(const cipc_model *model, const double *v_before, const double *v_after, long kicks, double energy)
+{
+    double mass = 0;
+    for (int i = 0; i < model->node_count; i++) { mass += model->mass[i]; }
+    double size = fmax(fmax(size_of_momentum(model, v_before), size_of_momentum(model, v_after)), sqrt(2 * mass * fmax(energy, 0)));
+    return ROUNDINGS_OF_KICK * ((double)kicks + model->node_count) * UNIT * size;
 }
 
 /* A sum carried along with what its rounding lost, and the sum of the magnitudes. */
@@ -79,6 +96,6 @@ cipc_status cipc_monitor_momentum(const cipc_model *model, const double *v_befor
     if (norm <= bound + rounding) { return CIPC_OK; }
     return cipc_fail(error, CIPC_E_VIOLATED_MOMENTUM, place,
                      "total momentum changed by %.17g (%a) kg m/s in a step without forces from outside, by more than %.17g (%a), which the "
-                     "tolerance of the Newton iterations allows",
+                     "tolerance or the rounding of the step allows",
                      norm, norm, bound, bound);
 }

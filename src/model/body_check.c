@@ -41,7 +41,7 @@ static cipc_status check_common(const cipc_body_description *d, cipc_error *erro
 static cipc_status check_shell(const cipc_body_description *d, cipc_error *error)
 {
     const cipc_material *m = &d->material;
-    bool isotropic = m->membrane == CIPC_MEMBRANE_NEO_HOOKEAN || m->membrane == CIPC_MEMBRANE_STVK;
+    bool isotropic = m->membrane == CIPC_MEMBRANE_NEO_HOOKEAN || m->membrane == CIPC_MEMBRANE_STVK || m->membrane == CIPC_MEMBRANE_SPRINGS;
     const number_check checks[] = {
         {"membrane.young", m->membrane_young, !isotropic || m->membrane_young > 0},
         {"membrane.poisson", m->membrane_poisson, !isotropic || (m->membrane_poisson > -1 && m->membrane_poisson < 1)},

@@ -38,7 +38,7 @@ static void contact_polynomial(const oracle_path *path, const cipc_feature *feat
 typedef struct inquiry {
     oracle_path path;
     mpz_t xi;
-    double t_max;
+    double begin, end; /* the times of s = 0 and s = 1 */
     int count;
     oracle_root event[EVENT_LIMIT];
     oracle_root *order[EVENT_LIMIT]; /* ascending */
@@ -183,23 +183,56 @@ static void refine_events(inquiry *q, int first, int last, unsigned long bits)
     sort_events(q);
 }
 
-/* The largest double <= s t_max, or the least one >= it (up), for s = numerator / 2^bits. */
+/* The largest double <= begin + s (end - begin), or the least one >= it (up), for s = numerator / 2^bits. Nothing is rounded before: any sum of two doubles has at
+ * most DOUBLE_SPAN bits. */
+enum { DOUBLE_SPAN = 2200 };
 static double time_of(const inquiry *q, const mpz_t numerator, unsigned long bits, bool up)
 {
     mpfr_t t, s;
-    mpfr_inits2(64 + (mpfr_prec_t)mpz_sizeinbase(numerator, 2), t, s, (mpfr_ptr)NULL); /* products are exact */
+    mpfr_prec_t span = q->begin == 0 ? 64 : 2 * DOUBLE_SPAN + (mpfr_prec_t)bits;
+    mpfr_inits2(span + (mpfr_prec_t)mpz_sizeinbase(numerator, 2), t, s, (mpfr_ptr)NULL);
+    mpfr_set_d(t, q->end, MPFR_RNDN);
+    mpfr_sub_d(t, t, q->begin, MPFR_RNDN);
     mpfr_set_z_2exp(s, numerator, -(mpfr_exp_t)bits, MPFR_RNDN);
-    mpfr_mul_d(t, s, q->t_max, MPFR_RNDN);
+    mpfr_mul(t, t, s, MPFR_RNDN);
+    mpfr_add_d(t, t, q->begin, MPFR_RNDN);
     double result = mpfr_get_d(t, up ? MPFR_RNDU : MPFR_RNDD);
     mpfr_clears(t, s, (mpfr_ptr)NULL);
     return result;
 }
 
-/* Do both ends round to neighbouring doubles? Then narrowing the interval further tells nothing. */
-static bool is_sharp(const inquiry *q, const cluster *c)
+/* Do both ends round to neighbouring doubles? Then narrowing the interval further tells nothing; nor does it, once the interval is very narrow, if there is one
+ * double between them: an interval around a time that is a double itself rounds like that however narrow it is, where s is not dyadic. */
+static bool is_sharp(const inquiry *q, const cluster *c, bool narrow)
 {
-    double lo = time_of(q, c->left, c->left_bits, false), hi = time_of(q, c->right, c->right_bits, true);
-    return hi <= nextafter(lo, INFINITY);
+    double lo = time_of(q, c->left, c->left_bits, false), hi = time_of(q, c->right, c->right_bits, true), next = nextafter(lo, INFINITY);
+    return hi <= next || (narrow && hi <= nextafter(next, INFINITY));
+}
+
+/* Is the distance xi exactly at a time that is a double: at s = (t - begin)/(end - begin)? */
+static bool meets_at(inquiry *q, double t)
+{
+    const double times[3] = {q->begin, q->end, t};
+    mpz_t s[3];
+    int unit = cipc_common_exponent(times, 3, 0);
+    for (int i = 0; i < 3; i++) {
+        mpz_init(s[i]);
+        cipc_integer_from_double(s[i], times[i], unit);
+    }
+    mpz_sub(s[2], s[2], s[0]);
+    mpz_sub(s[1], s[1], s[0]);
+    int sign = oracle_path_compare_at_ratio(&q->path, q->xi, s[2], s[1]);
+    for (int i = 0; i < 3; i++) mpz_clear(s[i]);
+    return sign == 0;
+}
+
+/* The cluster's times as doubles: the one between the ends, if there is one and it is the time. */
+static cipc_exact_impact impact_of(inquiry *q, const cluster *c)
+{
+    cipc_exact_impact impact = {CIPC_YES, time_of(q, c->left, c->left_bits, false), time_of(q, c->right, c->right_bits, true)};
+    double between = nextafter(impact.lo, INFINITY);
+    if (between < impact.hi && nextafter(between, INFINITY) == impact.hi && meets_at(q, between)) impact.lo = impact.hi = between;
+    return impact;
 }
 
 /* Is the cluster beginning with event `first` an impact? Its intervals are narrowed until that is decided and, for a crossing whose time is wanted, known to
@@ -210,7 +243,7 @@ static bool is_impact(inquiry *q, int first, bool want_time, cluster *c, int *ne
         *next = gather(q, first, c);
         bool point = compare_dyadic(c->left, c->left_bits, c->right, c->right_bits) == 0;
         if (sign_after(q, c, *next) <= 0) {
-            if (!want_time || point || is_sharp(q, c)) return true;
+            if (!want_time || point || is_sharp(q, c, bits > LAST_BITS + FIRST_BITS)) return true;
         } else if (!may_touch(q, c)) {
             return false;
         } else if (point || bits > LAST_BITS + FIRST_BITS) {
@@ -227,32 +260,47 @@ static cipc_exact_impact first_impact(inquiry *q, bool want_time)
     cluster c;
     mpz_inits(c.left, c.right, NULL);
     for (int first = 0, next; first < q->count && result.verdict == CIPC_NO; first = next) {
-        if (is_impact(q, first, want_time, &c, &next)) {
-            result = (cipc_exact_impact){CIPC_YES, time_of(q, c.left, c.left_bits, false), time_of(q, c.right, c.right_bits, true)};
-        }
+        if (is_impact(q, first, want_time, &c, &next)) result = impact_of(q, &c);
     }
     mpz_clears(c.left, c.right, NULL);
+    return result;
+}
+
+/* The path of the inquiry is there. */
+static cipc_exact_impact answer(inquiry *q, bool want_time)
+{
+    cipc_exact_impact result = {CIPC_INDETERMINATE, NAN, NAN};
+    mpz_t start;
+    mpz_init(start);
+    if (oracle_path_compare_at(&q->path, q->xi, start, 0) <= 0) {
+        result = (cipc_exact_impact){CIPC_YES, q->begin, q->begin};
+    } else {
+        find_events(q);
+        sort_events(q);
+        if (!q->capped) result = first_impact(q, want_time);
+    }
+    mpz_clear(start);
+    for (int i = 0; i < q->count; i++) oracle_root_clear(&q->event[i]);
     return result;
 }
 
 static cipc_exact_impact ask(const cipc_stencil_path *motion, double xi, double t_max, bool want_time)
 {
     cipc_exact_impact result = {CIPC_INDETERMINATE, NAN, NAN};
-    inquiry q = {.t_max = t_max};
+    inquiry q = {.begin = 0, .end = t_max};
     mpz_init(q.xi);
-    if (oracle_path_init(&q.path, motion, xi, t_max, q.xi)) {
-        mpz_t start;
-        mpz_init(start);
-        if (oracle_path_compare_at(&q.path, q.xi, start, 0) <= 0) {
-            result = (cipc_exact_impact){CIPC_YES, 0, 0};
-        } else {
-            find_events(&q);
-            sort_events(&q);
-            if (!q.capped) result = first_impact(&q, want_time);
-        }
-        mpz_clear(start);
-    }
-    for (int i = 0; i < q.count; i++) oracle_root_clear(&q.event[i]);
+    if (oracle_path_init(&q.path, motion, xi, t_max, q.xi)) result = answer(&q, want_time);
+    oracle_path_clear(&q.path);
+    mpz_clear(q.xi);
+    return result;
+}
+
+cipc_exact_impact cipc_exact_piece_toi(const cipc_stencil_piece *piece, double xi)
+{
+    cipc_exact_impact result = {CIPC_INDETERMINATE, NAN, NAN};
+    inquiry q = {.begin = piece->begin, .end = piece->end};
+    mpz_init(q.xi);
+    if (oracle_path_init_piece(&q.path, piece, xi, q.xi)) result = answer(&q, true);
     oracle_path_clear(&q.path);
     mpz_clear(q.xi);
     return result;

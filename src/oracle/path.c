@@ -21,8 +21,7 @@ static void scale_time(oracle_path *path, double t_max, mpz_t xi)
     mpz_clear(mantissa);
 }
 
-/* Take the motion and the place of the first node out: distances do not change, numbers get shorter. */
-static void localize(oracle_path *path)
+void oracle_path_localize(oracle_path *path)
 {
     for (int i = cipc_pair_nodes(path->kind) - 1; i >= 0; i--) {
         cipc_integer3_sub(&path->X[i], &path->X[i], &path->X[0]);
@@ -30,15 +29,20 @@ static void localize(oracle_path *path)
     }
 }
 
-bool oracle_path_init(oracle_path *path, const cipc_stencil_path *motion, double thickness, double t_max, mpz_t xi)
+void oracle_path_init_empty(oracle_path *path, cipc_pair_kind kind)
 {
-    int nodes = cipc_pair_nodes(motion->kind);
-    path->kind = motion->kind;
+    path->kind = kind;
     oracle_search_init(&path->search);
     for (int i = 0; i < 4; i++) {
         cipc_integer3_init(&path->X[i]);
         cipc_integer3_init(&path->P[i]);
     }
+}
+
+bool oracle_path_init(oracle_path *path, const cipc_stencil_path *motion, double thickness, double t_max, mpz_t xi)
+{
+    int nodes = cipc_pair_nodes(motion->kind);
+    oracle_path_init_empty(path, motion->kind);
     if (!cipc_all_finite(motion->x, 3 * nodes) || !cipc_all_finite(motion->p, 3 * nodes) || !(thickness >= 0) || !isfinite(thickness) ||
         !(t_max >= 0 && t_max <= 1)) {
         return false;
@@ -50,7 +54,7 @@ bool oracle_path_init(oracle_path *path, const cipc_stencil_path *motion, double
         if (motion->to_end) cipc_integer3_sub(&path->P[i], &path->P[i], &path->X[i]);
     }
     cipc_integer_from_double(xi, thickness, path->exponent);
-    localize(path);
+    oracle_path_localize(path);
     scale_time(path, t_max, xi);
     return true;
 }
@@ -74,6 +78,24 @@ void oracle_path_search_at(oracle_path *path, const mpz_t numerator, unsigned lo
         }
     }
     oracle_search_run(&path->search, path->kind);
+}
+
+int oracle_path_compare_at_ratio(oracle_path *path, const mpz_t xi, const mpz_t numerator, const mpz_t denominator)
+{
+    mpz_t scaled;
+    mpz_init(scaled);
+    for (int i = 0; i < cipc_pair_nodes(path->kind); i++) {
+        for (int k = 0; k < 3; k++) {
+            mpz_ptr node = path->search.node[i].c[k];
+            mpz_mul(node, path->X[i].c[k], denominator);
+            mpz_addmul(node, path->P[i].c[k], numerator);
+        }
+    }
+    oracle_search_run(&path->search, path->kind);
+    mpz_mul(scaled, xi, denominator);
+    int sign = oracle_search_compare(&path->search, scaled);
+    mpz_clear(scaled);
+    return sign;
 }
 
 int oracle_path_compare_at(oracle_path *path, const mpz_t xi, const mpz_t numerator, unsigned long bits)

@@ -241,6 +241,43 @@ void cipc_axes_curve(cipc_axes *axes, cairo_t *cr, const double *x, const double
     cairo_restore(cr);
 }
 
+/* Points first to last - 1: along the upper curve and back along the lower. */
+static void fill_between(const cipc_axes *axes, cairo_t *cr, const double *x, const double *lower, const double *upper, int first, int last)
+{
+    for (int i = first; i < last; i++) {
+        cairo_line_to(cr, place_x(axes, x[i]), place_y(axes, upper[i]));
+    }
+    for (int i = last - 1; i >= first; i--) {
+        cairo_line_to(cr, place_x(axes, x[i]), place_y(axes, lower[i]));
+    }
+    if (last - first == 1) {
+        cairo_stroke(cr);
+    } else {
+        cairo_close_path(cr);
+        cairo_fill(cr);
+    }
+}
+
+void cipc_axes_band(cipc_axes *axes, cairo_t *cr, const double *x, const double *lower, const double *upper, int count, cipc_colour colour, const char *legend)
+{
+    cairo_save(cr);
+    cairo_set_line_width(cr, 6);
+    if (legend != NULL) {
+        put_legend(axes, cr, colour, legend);
+    }
+    clip_to_box(axes, cr);
+    set_colour(cr, colour);
+    for (int first = 0, last; first < count; first = last + 1) {
+        for (last = first; last < count && drawable(axes, x[last], lower[last]) && drawable(axes, x[last], upper[last]);) {
+            last++;
+        }
+        if (last > first) {
+            fill_between(axes, cr, x, lower, upper, first, last);
+        }
+    }
+    cairo_restore(cr);
+}
+
 void cipc_axes_bars(cipc_axes *axes, cairo_t *cr, const double *x, const double *y, int count, double width, cipc_colour colour)
 {
     cairo_save(cr);

@@ -24,6 +24,8 @@ void cipc_axes_settle(cipc_axes *axes);
 void cipc_axes_draw(cipc_axes *axes, cairo_t *cr, const char *title, const char *x_label, const char *y_label);
 /* A curve, broken where a point cannot be drawn; a point alone is a dot. legend may be NULL. */
 void cipc_axes_curve(cipc_axes *axes, cairo_t *cr, const double *x, const double *y, int count, cipc_colour colour, const char *legend);
+/* The area between two curves, broken where either cannot be drawn; a point alone is a stroke from one to the other. legend may be NULL. */
+void cipc_axes_band(cipc_axes *axes, cairo_t *cr, const double *x, const double *lower, const double *upper, int count, cipc_colour colour, const char *legend);
 /* Bars of the given width (in x) from the axis up. */
 void cipc_axes_bars(cipc_axes *axes, cairo_t *cr, const double *x, const double *y, int count, double width, cipc_colour colour);
 /* A dashed horizontal line with its name in the legend. */

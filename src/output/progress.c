@@ -19,16 +19,33 @@ static void format_duration(char *text, size_t size, double seconds)
     }
 }
 
+/* A length or a time; "-" when there is none. */
+static void format_measure(char *text, size_t size, double value, const char *unit)
+{
+    if (isfinite(value)) {
+        snprintf(text, size, "%.2e %s", value, unit);
+    } else {
+        snprintf(text, size, "-");
+    }
+}
+
+void cipc_asynchronous_progress_line(FILE *terminal, int step, int steps, double time, const cipc_asynchronous_report *report, double min_gap, double seconds_left)
+{
+    char left[32], gap[32], least[32];
+    format_duration(left, sizeof left, seconds_left);
+    format_measure(gap, sizeof gap, min_gap, "m");
+    format_measure(least, sizeof least, report->smallest_step, "s");
+    fprintf(terminal, "\r\033[Kstep %d/%d  t %.4g s  events %ld  layers %d  contacts %d  least step %s  gap %s  left %s", step, steps, time, report->total_events, report->layers,
+            report->contacts, least, gap, left);
+    fflush(terminal);
+}
+
 void cipc_progress_line(FILE *terminal, int step, int steps, double time, int newton_iterations, int contacts, double min_gap,
                         double max_stretch, double seconds_left)
 {
     char left[32], gap[32], stretch[32];
     format_duration(left, sizeof left, seconds_left);
-    if (isfinite(min_gap)) {
-        snprintf(gap, sizeof gap, "%.2e m", min_gap);
-    } else {
-        snprintf(gap, sizeof gap, "-");
-    }
+    format_measure(gap, sizeof gap, min_gap, "m");
     if (max_stretch > 0) {
         snprintf(stretch, sizeof stretch, "%.4f", max_stretch);
     } else { /* nothing that could be stretched, or nobody looked */

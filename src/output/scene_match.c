@@ -5,13 +5,28 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cipc/base.h"
+
 /* How long to run, what to look at and what to write along the way: none changes a frame. */
 static const char *const irrelevant[] = {"title", "comment", "size", "sizes", "steps", "monitor", "output"};
 
-static void drop_irrelevant(json_t *scene)
+static bool is_asynchronous(const json_t *scene)
+{
+    const char *method = json_string_value(json_object_get(scene, "method"));
+    return method != NULL && strcmp(method, cipc_method_name(CIPC_METHOD_ASYNCHRONOUS)) == 0;
+}
+
+/* Dropping fails if it is not there, which is fine. */
+static void drop_irrelevant(json_t *scene, bool asynchronous)
 {
     for (size_t i = 0; i < sizeof irrelevant / sizeof irrelevant[0]; i++) {
-        json_object_del(scene, irrelevant[i]); /* fails if it is not there, which is fine */
+        json_object_del(scene, irrelevant[i]);
+    }
+    if (asynchronous) { /* after how many events a step counts as stalled: who raises that wants to go on */
+        json_object_del(json_object_get(scene, "asynchronous"), "events");
+    } else { /* of the other method; scenes resolved by older programs do not have them */
+        json_object_del(scene, "asynchronous");
+        json_object_del(scene, "loads");
     }
 }
 
@@ -82,8 +97,9 @@ bool cipc_scene_match(const char *a, const char *b, char *path, size_t size)
     json_t *scene_a = json_loads(a, 0, NULL), *scene_b = json_loads(b, 0, NULL);
     bool matches = false;
     if (scene_a != NULL && scene_b != NULL) {
-        drop_irrelevant(scene_a);
-        drop_irrelevant(scene_b);
+        const bool asynchronous = is_asynchronous(scene_a) && is_asynchronous(scene_b);
+        drop_irrelevant(scene_a, asynchronous);
+        drop_irrelevant(scene_b, asynchronous);
         matches = same(scene_a, scene_b, path, size);
     }
     json_decref(scene_a);

@@ -1,121 +1,23 @@
 /* summary.json: what a run did and what may be claimed of it. */
 #include "cipc/output.h"
 #include "output/atomic_file.h"
-#include "output/particle_nodes.h"
+#include "output/contact_place.h"
 #include "base/json_number.h"
 #include "output/versions.h"
 
 #include <math.h>
 
-cipc_run_summary cipc_run_summary_default(void)
-{
-    cipc_run_summary summary = {0};
-    summary.resumed_from = -1;
-    summary.converged = true;
-    summary.monitored = true;
-    summary.min_gap = INFINITY;
-    return summary;
-}
-
-void cipc_run_summary_of_model(cipc_run_summary *summary, const cipc_model *model)
-{
-    summary->bodies = model->body_count;
-    summary->nodes = model->node_count;
-    summary->triangles = model->triangle_count;
-    summary->segments = model->segment_count;
-    summary->particles = cipc_particle_count(model);
-    summary->tetrahedra = model->tetrahedron_count;
-}
-
-void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *report, const cipc_step_invariants *invariants)
-{
-    summary->converged = summary->converged && report->converged;
-    summary->newton_iterations += report->newton_iterations;
-    summary->line_search_halvings += report->line_search_halvings;
-    summary->friction_passes += report->friction_passes;
-    summary->symbolic_analyses += report->symbolic_analyses;
-    summary->factorizations += report->factorizations;
-    summary->max_contacts = report->max_contacts > summary->max_contacts ? report->max_contacts : summary->max_contacts;
-    if (report->newton_iterations > summary->max_newton_iterations) {
-        summary->max_newton_iterations = report->newton_iterations;
-    }
-    for (int i = 0; i < CIPC_PHASE_COUNT; i++) {
-        summary->seconds_by_phase[i] += report->seconds[i];
-    }
-    if (invariants == NULL) {
-        summary->monitored = false;
-        return;
-    }
-    summary->points_checked += invariants->points;
-    summary->energy_checks += invariants->energy_checks;
-    summary->momentum_checks += invariants->momentum_checks;
-    summary->max_momentum_change = fmax(summary->max_momentum_change, invariants->momentum_change);
-    summary->min_gap = fmin(summary->min_gap, invariants->worst.min_gap);
-    summary->max_stretch = fmax(summary->max_stretch, invariants->worst.max_stretch);
-    summary->max_stretch_ratio = fmax(summary->max_stretch_ratio, invariants->worst.max_stretch_ratio);
-    summary->max_segment_stretch = fmax(summary->max_segment_stretch, invariants->max_segment_stretch);
-    summary->exact_gap_checks += invariants->worst.exact_gap_checks;
-    summary->exact_strain_checks += invariants->worst.exact_strain_checks;
-    summary->exact_path_checks += invariants->worst.exact_path_checks;
-    summary->paths_checked += invariants->worst.paths_checked;
-}
-
 enum { INVARIANT_COUNT = 8 };
 
-/* At a point the monitors look in this order and stop at the first violation; M7 looks at whole steps, when all is over. */
-static const int turn[INVARIANT_COUNT + 1] = {[6] = 1, [8] = 2, [1] = 3, [2] = 4, [3] = 5, [4] = 6, [5] = 7, [7] = 8};
-
-static int violated_invariant(cipc_status status)
-{
-    switch (status) {
-    case CIPC_E_VIOLATED_INTERSECTION: return 1;
-    case CIPC_E_VIOLATED_GAP: return 2;
-    case CIPC_E_VIOLATED_STRAIN: return 3;
-    case CIPC_E_VIOLATED_INVERSION: return 4;
-    case CIPC_E_VIOLATED_SWEPT: return 5;
-    case CIPC_E_VIOLATED_ENERGY: return 6;
-    case CIPC_E_VIOLATED_MOMENTUM: return 7;
-    case CIPC_E_VIOLATED_FINITE: return 8;
-    default: return 0;
-    }
-}
-
-/* Number of points, or steps, that the monitor has looked at and let pass. */
-static long points_passed(const cipc_run_summary *summary, int invariant)
-{
-    const int violated = violated_invariant(summary->status);
-    /* Of the last point, the monitors whose turn comes after the violated one know nothing. */
-    const long unseen = turn[violated] != 0 && turn[invariant] > turn[violated] ? 1 : 0;
-    if (invariant == 6) {
-        return summary->energy_checks - unseen;
-    }
-    if (invariant == 7) {
-        return summary->momentum_checks;
-    }
-    if ((invariant == 3 && summary->limited_triangles == 0) || (invariant == 4 && summary->tetrahedra == 0) || (invariant == 5 && !summary->swept)) {
-        return 0;
-    }
-    return summary->points_checked - unseen;
-}
-
-const char *cipc_run_summary_verdict(const cipc_run_summary *summary, int invariant)
-{
-    if (invariant < 1 || invariant > INVARIANT_COUNT) {
-        return "not checked";
-    }
-    if (violated_invariant(summary->status) == invariant) {
-        return "violated";
-    }
-    const bool undecided = summary->status == CIPC_E_INDETERMINATE && invariant < 6;
-    return summary->monitored && !undecided && points_passed(summary, invariant) > 0 ? "holds" : "not checked";
-}
-
-/* The verdict, and of M7 why there is none. */
+/* The verdict, and of M6 and M7 why there is none. */
 static json_t *verdict_text(const cipc_run_summary *summary, int invariant)
 {
     const char *verdict = cipc_run_summary_verdict(summary, invariant);
     if (invariant == 7 && summary->monitored && summary->momentum_source != NULL) {
         return json_sprintf("%s: %s", verdict, summary->momentum_source);
+    }
+    if (invariant == 6 && summary->monitored && summary->method == CIPC_METHOD_ASYNCHRONOUS) {
+        return json_sprintf("%s: the energy oscillates", verdict);
     }
     return json_string(verdict);
 }
@@ -176,9 +78,13 @@ static json_t *invariants_object(const cipc_run_summary *summary, bool *good)
 
 static json_t *monitors_object(const cipc_run_summary *summary, bool *good)
 {
-    const double seconds = summary->seconds_by_phase[CIPC_PHASE_MONITOR];
+    const bool asynchronous = summary->method == CIPC_METHOD_ASYNCHRONOUS;
+    const double seconds = asynchronous ? summary->asynchronous.seconds[CIPC_ASYNCHRONOUS_PHASE_MONITOR] : summary->seconds_by_phase[CIPC_PHASE_MONITOR];
     json_t *object = json_object();
     cipc_json_put(object, "points_checked", json_integer(summary->points_checked), good);
+    if (asynchronous) {
+        cipc_json_put(object, "windows_checked", json_integer(summary->windows_checked), good);
+    }
     cipc_json_put(object, "energy_checks", json_integer(summary->energy_checks), good);
     cipc_json_put(object, "momentum_checks", json_integer(summary->momentum_checks), good);
     cipc_json_put(object, "bodies_apart", json_integer(summary->bodies_apart), good);
@@ -192,6 +98,15 @@ static json_t *monitors_object(const cipc_run_summary *summary, bool *good)
     return object;
 }
 
+static void put_asynchronous_extremes(json_t *object, const cipc_asynchronous_totals *totals, bool *good)
+{
+    cipc_json_put(object, "max_events", json_integer(totals->max_events), good);
+    cipc_json_put(object, "layers", json_integer(totals->layers), good);
+    cipc_json_put(object, "deepest", cipc_contact_place_object(&totals->deepest, good), good);
+    cipc_json_put(object, "solver_min_gap", cipc_json_number(totals->min_gap), good);
+    cipc_json_put(object, "smallest_step", cipc_json_number(totals->smallest_step), good);
+}
+
 static json_t *extremes_object(const cipc_run_summary *summary, bool *good)
 {
     json_t *object = json_object();
@@ -201,12 +116,32 @@ static json_t *extremes_object(const cipc_run_summary *summary, bool *good)
     cipc_json_put(object, "max_segment_stretch", summary->monitored ? cipc_json_number(summary->max_segment_stretch) : json_null(), good);
     cipc_json_put(object, "max_momentum_change", summary->momentum_checks > 0 ? cipc_json_number(summary->max_momentum_change) : json_null(), good);
     cipc_json_put(object, "max_contacts", json_integer(summary->max_contacts), good);
-    cipc_json_put(object, "max_newton_iterations", json_integer(summary->max_newton_iterations), good);
+    if (summary->method == CIPC_METHOD_ASYNCHRONOUS) {
+        put_asynchronous_extremes(object, &summary->asynchronous, good);
+    } else {
+        cipc_json_put(object, "max_newton_iterations", json_integer(summary->max_newton_iterations), good);
+    }
+    return object;
+}
+
+static json_t *asynchronous_totals_object(const cipc_asynchronous_totals *totals, bool *good)
+{
+    json_t *object = json_object(), *events = json_object();
+    for (int k = 0; k < CIPC_EVENT_COUNT; k++) {
+        cipc_json_put(events, cipc_event_name((cipc_event_kind)k), json_integer(totals->events[k]), good);
+    }
+    cipc_json_put(object, "events", events, good);
+    cipc_json_put(object, "total_events", json_integer(totals->total_events), good);
+    cipc_json_put(object, "activations", json_integer(totals->activations), good);
+    cipc_json_put(object, "deactivations", json_integer(totals->deactivations), good);
     return object;
 }
 
 static json_t *totals_object(const cipc_run_summary *summary, bool *good)
 {
+    if (summary->method == CIPC_METHOD_ASYNCHRONOUS) {
+        return asynchronous_totals_object(&summary->asynchronous, good);
+    }
     json_t *object = json_object();
     cipc_json_put(object, "newton_iterations", json_integer(summary->newton_iterations), good);
     cipc_json_put(object, "line_search_halvings", json_integer(summary->line_search_halvings), good);
@@ -219,7 +154,11 @@ static json_t *totals_object(const cipc_run_summary *summary, bool *good)
 static json_t *seconds_object(const cipc_run_summary *summary, bool *good)
 {
     json_t *object = json_object();
-    for (int i = 0; i < CIPC_PHASE_COUNT; i++) {
+    const bool asynchronous = summary->method == CIPC_METHOD_ASYNCHRONOUS;
+    for (int i = 0; asynchronous && i < CIPC_ASYNCHRONOUS_PHASE_COUNT; i++) {
+        cipc_json_put(object, cipc_asynchronous_phase_name((cipc_asynchronous_phase)i), cipc_json_number(summary->asynchronous.seconds[i]), good);
+    }
+    for (int i = 0; !asynchronous && i < CIPC_PHASE_COUNT; i++) {
         cipc_json_put(object, cipc_phase_name((cipc_phase)i), cipc_json_number(summary->seconds_by_phase[i]), good);
     }
     cipc_json_put(object, "output", cipc_json_number(summary->output_seconds), good);
@@ -235,6 +174,7 @@ static void put_outcome(json_t *object, const cipc_run_summary *summary, bool *g
     cipc_json_put(object, "error", error_object(summary, good), good);
     cipc_json_put(object, "scene", scene_object(summary, good), good);
     cipc_json_put(object, "command", text_or_null(summary->command), good);
+    cipc_json_put(object, "method", json_string(cipc_method_name(summary->method)), good);
     cipc_json_put(object, "seed", json_integer((json_int_t)summary->seed), good);
     cipc_json_put(object, "threads", json_integer(summary->threads), good);
     cipc_json_put(object, "steps_asked", json_integer(summary->steps_asked), good);

@@ -26,6 +26,7 @@ static const char *unchecked_reason(const cipc_run_summary *s, int invariant)
     if (invariant == 3 && s->limited_triangles == 0) { return "nothing in the scene has a strain limit"; }
     if (invariant == 4 && s->tetrahedra == 0) { return "the scene has no tetrahedron"; }
     if (invariant == 5 && !s->swept) { return "monitor.swept is off"; }
+    if (invariant == 6 && s->method == CIPC_METHOD_ASYNCHRONOUS) { return "the energy oscillates"; }
     if (invariant == 7 && s->momentum_source != NULL) { return s->momentum_source; }
     return s->status == CIPC_E_INDETERMINATE ? "the exact arithmetic gave up at a point" : "no accepted point was looked at";
 }

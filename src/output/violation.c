@@ -27,31 +27,32 @@ static json_t *report_object(const cipc_invariant_report *report, bool *good)
     return object;
 }
 
-static json_t *violation_object(const cipc_accepted_point *point, double time_before, const cipc_invariant_report *report,
-                                const cipc_error *violation, bool *good)
+/* What every violation has. */
+static json_t *violation_object(int steps_taken, double time_before, const cipc_error *violation, bool *good)
 {
-    json_t *object = json_object(), *energy = json_object();
+    json_t *object = json_object();
     cipc_json_put(object, "status", json_string(cipc_status_name(violation->status)), good);
     cipc_json_put(object, "number", json_integer(violation->status), good);
     cipc_json_put(object, "where", text_or_null(violation->place), good);
     cipc_json_put(object, "what", text_or_null(violation->what), good);
-    cipc_json_put(object, "steps_taken", json_integer(point->step), good);
+    cipc_json_put(object, "steps_taken", json_integer(steps_taken), good);
     cipc_json_put(object, "time_before", cipc_json_number(time_before), good);
-    cipc_json_put(object, "iteration", json_integer(point->iteration), good);
+    return object;
+}
+
+static json_t *energy_object(const cipc_accepted_point *point, bool *good)
+{
+    json_t *energy = json_object();
     cipc_json_put(energy, "comparable", json_boolean(point->energy_valid), good);
     cipc_json_put(energy, "before", cipc_json_number(point->energy_before), good);
     cipc_json_put(energy, "after", cipc_json_number(point->energy_after), good);
     cipc_json_put(energy, "noise", cipc_json_number(point->energy_noise), good);
-    cipc_json_put(object, "energy", energy, good);
-    cipc_json_put(object, "report", report_object(report, good), good);
-    return object;
+    return energy;
 }
 
-cipc_status cipc_violation_write(const char *path, const cipc_accepted_point *point, double time_before,
-                                 const cipc_invariant_report *report, const cipc_error *violation, cipc_error *error)
+/* Takes over the reference. */
+static cipc_status write_object(const char *path, json_t *object, bool good, cipc_error *error)
 {
-    bool good = true;
-    json_t *object = violation_object(point, time_before, report, violation, &good);
     cipc_atomic_file file;
     cipc_status status =
         good ? cipc_atomic_open(&file, path, error) : cipc_fail(error, CIPC_E_OUT_OF_MEMORY, path, "no memory for the report");
@@ -62,4 +63,27 @@ cipc_status cipc_violation_write(const char *path, const cipc_accepted_point *po
     }
     json_decref(object);
     return status;
+}
+
+cipc_status cipc_violation_write(const char *path, const cipc_accepted_point *point, double time_before,
+                                 const cipc_invariant_report *report, const cipc_error *violation, cipc_error *error)
+{
+    bool good = true;
+    json_t *object = violation_object(point->step, time_before, violation, &good);
+    cipc_json_put(object, "iteration", json_integer(point->iteration), &good);
+    cipc_json_put(object, "energy", energy_object(point, &good), &good);
+    cipc_json_put(object, "report", report_object(report, &good), &good);
+    return write_object(path, object, good, error);
+}
+
+cipc_status cipc_asynchronous_violation_write(const char *path, int steps_taken, double time_before, const double window[2],
+                                              const cipc_invariant_report *report, const cipc_error *violation, cipc_error *error)
+{
+    bool good = true;
+    json_t *object = violation_object(steps_taken, time_before, violation, &good), *times = json_object();
+    cipc_json_put(times, "begin", cipc_json_number(window[0]), &good);
+    cipc_json_put(times, "end", cipc_json_number(window[1]), &good);
+    cipc_json_put(object, "window", times, &good);
+    cipc_json_put(object, "report", report_object(report, &good), &good);
+    return write_object(path, object, good, error);
 }

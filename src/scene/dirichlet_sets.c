@@ -5,7 +5,7 @@
 
 #include "scene/alternatives.h"
 #include "scene/motions.h"
-#include "scene/selection.h"
+#include "scene/node_choice.h"
 #include "scene/track.h"
 
 enum { SETS_MAX = 100000 };
@@ -14,39 +14,8 @@ typedef struct set_reader {
     scene_reader *r;
     const scene_bodies *bodies;
     cipc_model *model;
-    scene_box *so_far; /* of each body and those before it; owned */
+    scene_node_choice choice;
 } set_reader;
-
-static bool measure(set_reader *s, const scene_cursor *list)
-{
-    int count = s->bodies->count;
-    s->so_far = cipc_alloc((size_t)count, sizeof *s->so_far);
-    if (s->so_far == NULL) {
-        scene_reject_memory(s->r, list);
-        return false;
-    }
-    for (int b = 0; b < count; b++) {
-        const cipc_body_description *d = &s->bodies->descriptions[b];
-        s->so_far[b] = scene_box_of(d->position, d->node_count);
-        if (b > 0) s->so_far[b] = scene_box_around(&s->so_far[b - 1], &s->so_far[b]);
-    }
-    return true;
-}
-
-/* Selects in the body's own numbering. */
-static void select_nodes(set_reader *s, const scene_cursor *cursor, int body, cipc_dirichlet_set *set)
-{
-    const cipc_body_description *d = &s->bodies->descriptions[body];
-    const scene_selectable nodes = {d->position, d->node_count, s->so_far[body], s->so_far[s->bodies->count - 1]};
-    scene_cursor select = scene_member(cursor, "select");
-    if (select.value == NULL) scene_reject(s->r, &select, CIPC_E_MISSING_KEY, "required, but missing: one of box, nodes, nearest, ring, all");
-    if (s->r->status != CIPC_OK) return;
-    set->nodes = cipc_alloc((size_t)d->node_count, sizeof *set->nodes);
-    if (set->nodes == NULL)
-        scene_reject_memory(s->r, cursor);
-    else
-        set->node_count = scene_select_nodes(s->r, &select, &nodes, set->nodes);
-}
 
 static void read_track(set_reader *s, const scene_cursor *cursor, int body, cipc_dirichlet_set *set)
 {
@@ -63,7 +32,7 @@ static void add_set(set_reader *s, const scene_cursor *cursor, int body, const c
 {
     cipc_dirichlet_set set = *pattern;
     cipc_error error;
-    select_nodes(s, cursor, body, &set);
+    set.nodes = scene_choose_nodes(&s->choice, s->r, cursor, body, &set.node_count);
     read_track(s, cursor, body, &set);
     for (int i = 0; i < set.node_count; i++) set.nodes[i] += s->model->bodies[body].first_node;
     if (s->r->status == CIPC_OK) scene_adopt(s->r, cursor, cipc_model_add_dirichlet(s->model, &set, &error), &error);
@@ -125,10 +94,10 @@ void scene_read_dirichlet(scene_reader *r, const scene_cursor *root, const scene
 {
     set_reader s = {.r = r, .bodies = bodies, .model = model};
     scene_cursor list = scene_array_member(r, root, "dirichlet");
-    if (!scene_is_array(r, &list, 0, SETS_MAX) || !measure(&s, &list)) return;
+    if (!scene_is_array(r, &list, 0, SETS_MAX) || !scene_node_choice_init(&s.choice, r, &list, bodies)) return;
     for (size_t i = 0; i < json_array_size(list.value) && r->status == CIPC_OK; i++) {
         scene_cursor set = scene_element(&list, i);
         read_set(&s, &set);
     }
-    cipc_free(s.so_far);
+    scene_node_choice_free(&s.choice);
 }

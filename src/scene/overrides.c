@@ -83,6 +83,17 @@ static const char *nearest_element(const json_t *array, const char *key)
     return nearest;
 }
 
+static const char *nearest_member(json_t *object, const char *key)
+{
+    const char *nearest = NULL, *name;
+    json_t *value;
+    json_object_foreach(object, name, value)
+    {
+        if (nearest == NULL || scene_edit_distance(key, name) < scene_edit_distance(key, nearest)) nearest = name;
+    }
+    return nearest;
+}
+
 static cipc_status choose_element(walk *w, const char *key, size_t *index)
 {
     *index = find_element(w->node, key);
@@ -114,6 +125,15 @@ static cipc_status descend(walk *w, const char *key)
     return CIPC_OK;
 }
 
+/* null takes a member away. One that is not there is a slip of the pen more often than not. */
+static cipc_status take_away(walk *w, const char *key)
+{
+    if (json_object_get(w->node, key) == NULL) return fail(w, CIPC_E_USAGE, "no key to take away called", key, nearest_member(w->node, key));
+    extend_address(w, key);
+    json_object_del(w->node, key);
+    return CIPC_OK;
+}
+
 /* Set the last key. Takes over the reference to value. */
 static cipc_status assign(walk *w, const char *key, json_t *value)
 {
@@ -128,6 +148,7 @@ static cipc_status assign(walk *w, const char *key, json_t *value)
         json_decref(value);
         return fail(w, CIPC_E_USAGE, "neither an object nor an array to hold", key, NULL);
     }
+    if (json_is_null(value)) return take_away(w, key); /* null has no references to count */
     if (!w->creating) extend_address(w, key);
     return json_object_set_new(w->node, key, value) == 0 ? CIPC_OK : fail_memory(w);
 }

@@ -8,6 +8,8 @@
 #include "scene/body_kind.h"
 #include "scene/dirichlet_sets.h"
 #include "scene/json_text.h"
+#include "scene/loads.h"
+#include "scene/method.h"
 #include "scene/overrides.h"
 #include "scene/pairs.h"
 #include "scene/seams.h"
@@ -71,6 +73,8 @@ static void build(scene_reader *r, const scene_cursor *root, const scene_bodies 
     scene_read_collisions(r, root, bodies, scene->model);
     scene_read_stitches(r, root, bodies, scene->model);
     scene_read_dirichlet(r, root, bodies, scene->model);
+    scene_read_loads(r, root, bodies, scene->model);
+    scene_check_method(r, root, bodies, scene);
     read_subject(r, root, bodies, scene);
 }
 
@@ -79,7 +83,7 @@ static void read_scene(scene_reader *r, cipc_scene *scene)
     static const char *const keys[] = {"method",   "title",       "size",            "sizes",      "compat",    "time_step",  "steps",
                                        "gravity",  "seed",        "integrator",      "newton",     "contact",   "bodies",     "friction",
                                        "stitches", "quasistatic", "strain_coupling", "collisions", "dirichlet", "monitor",    "output",
-                                       NULL};
+                                       "loads",    "asynchronous", NULL};
     double gravity[3];
     scene_bodies bodies = {0};
     scene_cursor root = scene_root(r->root);

@@ -5,6 +5,9 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "scene/asynchronous.h"
+#include "scene/method.h"
+
 static const double gravity_default[3] = {0, -9.81, 0};            /* m/s^2 */
 static const double released_tolerance = 1e-3;                     /* m/s (SPEC C.7) */
 static const double camera_azimuth = 0.7, camera_elevation = 0.35; /* rad */
@@ -94,7 +97,8 @@ static void read_monitor(scene_reader *r, const scene_cursor *root, cipc_scene *
     if (!scene_is_object(r, &monitor, keys)) return;
     scene->monitor = scene_boolean(r, &monitor, "enabled", true);
     scene->monitor_swept = scene_boolean(r, &monitor, "swept", true);
-    scene->monitor_reach = scene_number(r, &monitor, "reach", scene->options.contact.dhat, scene_not_negative);
+    const double reach = scene->method == CIPC_METHOD_ASYNCHRONOUS ? scene->asynchronous.thickness : scene->options.contact.dhat;
+    scene->monitor_reach = scene_number(r, &monitor, "reach", reach, scene_not_negative);
 }
 
 static void read_output(scene_reader *r, const scene_cursor *root, cipc_scene *scene)
@@ -123,11 +127,11 @@ static void read_size(scene_reader *r, const scene_cursor *root, cipc_scene *sce
 
 void scene_read_settings(scene_reader *r, const scene_cursor *root, cipc_scene *scene, double gravity[3])
 {
-    static const char *const methods[] = {"c-ipc", NULL}, *const compats[] = {"none", "released", NULL};
+    static const char *const compats[] = {"none", "released", NULL};
     static const char *const couplings[] = {"coupled", "split", NULL}; /* in the order of cipc_strain_coupling */
     cipc_implicit_options *options = &scene->options;
     *options = cipc_implicit_options_default();
-    scene_choice(r, root, "method", "method", methods, 0);
+    scene->method = scene_read_method(r, root);
     scene->title = copy_text(r, root, scene_string(r, root, "title", ""));
     read_size(r, root, scene);
     options->released = scene_choice(r, root, "compat", "compat", compats, 0) == 1;
@@ -140,6 +144,7 @@ void scene_read_settings(scene_reader *r, const scene_cursor *root, cipc_scene *
     read_integrator(r, root, &options->integrator);
     read_newton(r, root, options);
     read_contact(r, root, options);
+    scene_read_asynchronous(r, root, options, &scene->asynchronous);
     read_monitor(r, root, scene);
     read_output(r, root, scene);
 }

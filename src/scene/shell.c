@@ -1,4 +1,4 @@
-/* Grid, irregular sheet, icosphere, shell of revolution, open cylinder, capsule, panels of a garment, ribbon or file. */
+/* Grid, irregular sheet, icosphere, shell of revolution, open cylinder, capsule, nails, panels of a garment, ribbon or file. */
 #include "scene/shell.h"
 
 #include <limits.h>
@@ -83,6 +83,19 @@ static void read_capsule(scene_reader *r, const scene_cursor *capsule, cipc_mesh
     if (r->status == CIPC_OK) scene_adopt(r, capsule, cipc_mesh_capsule(mesh, radii, length, around, along, &error), &error);
 }
 
+static void read_nails(scene_reader *r, const scene_cursor *nails, cipc_mesh *mesh)
+{
+    static const char *const keys[] = {"count", "spacing", "width", "height", NULL};
+    cipc_nails bed;
+    cipc_error error;
+    if (!scene_is_object(r, nails, keys)) return;
+    scene_integers(r, nails, "count", 2, 1, SCENE_NODES_MAX, bed.count);
+    scene_numbers(r, nails, "spacing", 2, scene_positive, bed.spacing);
+    bed.width = scene_number(r, nails, "width", SCENE_REQUIRED_NUMBER, scene_positive);
+    bed.height = scene_number(r, nails, "height", SCENE_REQUIRED_NUMBER, scene_positive);
+    if (r->status == CIPC_OK) scene_adopt(r, nails, cipc_mesh_nails(mesh, &bed, &error), &error);
+}
+
 /* What gores and pleats have in common, but the rows. */
 static cipc_panel_ring read_panel_ring(scene_reader *r, const scene_cursor *object)
 {
@@ -152,8 +165,8 @@ static void read_ribbon(scene_reader *r, const scene_cursor *ribbon, cipc_mesh *
 
 void scene_read_shell(scene_reader *r, const scene_cursor *shell, unsigned long seed, cipc_mesh *mesh)
 {
-    enum { GRID, IRREGULAR, ICOSPHERE, REVOLUTION, CYLINDER, CAPSULE, GORES, PLEATS, RIBBON, MESH };
-    static const char *const keys[] = {"grid", "irregular", "icosphere", "revolution", "cylinder", "capsule", "gores", "pleats", "ribbon", "mesh", NULL};
+    enum { GRID, IRREGULAR, ICOSPHERE, REVOLUTION, CYLINDER, CAPSULE, NAILS, GORES, PLEATS, RIBBON, MESH };
+    static const char *const keys[] = {"grid", "irregular", "icosphere", "revolution", "cylinder", "capsule", "nails", "gores", "pleats", "ribbon", "mesh", NULL};
     *mesh = (cipc_mesh){0};
     if (!scene_is_object(r, shell, keys)) return;
     int way = scene_one_of(r, shell, keys);
@@ -171,6 +184,8 @@ void scene_read_shell(scene_reader *r, const scene_cursor *shell, unsigned long 
         read_cylinder(r, &member, mesh);
     else if (way == CAPSULE)
         read_capsule(r, &member, mesh);
+    else if (way == NAILS)
+        read_nails(r, &member, mesh);
     else if (way == GORES)
         read_gores(r, &member, mesh);
     else if (way == PLEATS)

@@ -6,11 +6,12 @@
 #include "scene/materials.h"
 #include "scene/orthotropic.h"
 
-static const char *const models[] = {"none", "neo-hookean", "stvk", "orthotropic", NULL}; /* in the order of cipc_membrane_model */
+static const char *const models[] = {"none", "neo-hookean", "stvk", "orthotropic", "springs", NULL}; /* in the order of cipc_membrane_model */
 static const char *const constants[] = {"plate", "cipc", NULL};                           /* in the order of cipc_hinge_constant */
 static const double activation_default = 1;         /* shat: every stretched triangle (SPEC C.2) */
 static const double strain_stiffness_default = 1e3; /* kappa_s, Pa (SPEC C.2) */
 static const scene_range poisson_range = {-1, 0.5, true, false};
+static const double springs_poisson = 1.0 / 3; /* of a lattice of springs, whatever their stiffness (SPEC A.8) */
 
 /* What the scene names, and what that stands for; SCENE_REQUIRED_NUMBER where it says nothing. */
 typedef struct base {
@@ -54,7 +55,11 @@ static void read_isotropic(scene_reader *r, const scene_cursor *membrane, const 
     bool none = m->membrane == CIPC_MEMBRANE_NONE, nothing = none && named->name == NULL;
     m->membrane_young =
         scene_number(r, membrane, "young", nothing ? 0 : factor * named->young, none ? scene_not_negative : scene_positive);
-    m->membrane_poisson = scene_number(r, membrane, "poisson", nothing ? 0 : named->poisson, poisson_range);
+    const bool springs = m->membrane == CIPC_MEMBRANE_SPRINGS;
+    m->membrane_poisson = scene_number(r, membrane, "poisson", nothing ? 0 : springs ? springs_poisson : named->poisson, poisson_range);
+    scene_cursor poisson = scene_member(membrane, "poisson");
+    if (springs && m->membrane_poisson != springs_poisson)
+        scene_reject(r, &poisson, CIPC_E_OUT_OF_RANGE, "is %g, but springs make it 1/3: leave it out", m->membrane_poisson);
 }
 
 static void read_membrane(scene_reader *r, const scene_cursor *body, const base *named, bool optional, cipc_material *m)

@@ -110,6 +110,9 @@ static void test_what_changes_momentum(void **state)
     (void)state;
     hand_model *h = particles((const double[1]){2}, 1);
     assert_null(cipc_momentum_source(&h->model));
+    h->model.load_count = 1;
+    assert_string_equal(cipc_momentum_source(&h->model), "loads");
+    h->model.load_count = 0;
     h->model.bodies[0].material.damping_stiffness = 1; /* internal */
     assert_null(cipc_momentum_source(&h->model));
     h->model.bodies[0].material.damping_mass = 1;
@@ -142,11 +145,61 @@ static void test_bound(void **state)
     destroy(h);
 }
 
+/* sum m |v| is 3 * 5 + 4 * 2 before and 7 after; energy decides when it is larger, and never when it is not a number to take a root of. */
+static void test_bound_of_kicks(void **state)
+{
+    (void)state;
+    hand_model *h = particles((const double[2]){3, 4}, 2);
+    const double fast[6] = {3, 0, 4, 0, -2, 0}, slow[6] = {1, 0, 0, 0, 0, 1}, rest[6] = {0};
+    const double unit = 0x1p-53;
+    assert_true(cipc_momentum_rounding(&h->model, fast, slow, 8, 0) == 64 * 10 * unit * 23);
+    assert_true(cipc_momentum_rounding(&h->model, slow, fast, 8, 0) == 64 * 10 * unit * 23);
+    assert_true(cipc_momentum_rounding(&h->model, slow, slow, 0, -1) == 64 * 2 * unit * 7);
+    assert_true(cipc_momentum_rounding(&h->model, slow, slow, 0, 14) == 64 * 2 * unit * 14); /* sqrt(2 * 7 * 14) */
+    assert_true(cipc_momentum_rounding(&h->model, rest, rest, 1000, 0) == 0);
+    destroy(h);
+}
+
+/* A chain of stretched springs that starts at rest, kick by kick: rounding stays within the bound although nothing moves at the start; 1e-10 of every second
+ * impulse missing at one end does not. */
+static void test_kicks_of_a_chain(void **state)
+{
+    (void)state;
+    enum { COUNT = 20, ROUNDS = 2000 };
+    const double stiffness = 50, h = 0.01;
+    cipc_error error;
+    double mass[COUNT], change;
+    uint64_t seed = 7;
+    for (int i = 0; i < COUNT; i++) { mass[i] = random_uniform(&seed, 0.3, 1); }
+    hand_model *model = particles(mass, COUNT);
+    for (int wrong = 0; wrong < 2; wrong++) {
+        double x[3 * COUNT] = {0}, v[3 * COUNT] = {0}, energy = 0;
+        const double start[3 * COUNT] = {0};
+        for (int i = 0; i < COUNT; i++) { x[3 * i] = 1.3 * i + random_uniform(&seed, -0.1, 0.1); }
+        for (int i = 0; i + 1 < COUNT; i++) { energy += 0.5 * stiffness * (x[3 * i + 3] - x[3 * i] - 1) * (x[3 * i + 3] - x[3 * i] - 1); }
+        for (int round = 0; round < ROUNDS; round++) {
+            for (int i = 0; i + 1 < COUNT; i++) {
+                double impulse = h * stiffness * (x[3 * i + 3] - x[3 * i] - 1);
+                v[3 * i] += impulse / mass[i] * (wrong && i % 2 == 0 && impulse > 0 ? 1 - 1e-10 : 1);
+                v[3 * i + 3] -= impulse / mass[i + 1];
+            }
+            for (int i = 0; i < COUNT; i++) { x[3 * i] += h * v[3 * i]; }
+        }
+        const double bound = cipc_momentum_rounding(&model->model, start, v, (COUNT - 1) * ROUNDS, energy);
+        const cipc_status status = cipc_monitor_momentum(&model->model, start, v, bound, &change, &error);
+        assert_int_equal(status, wrong ? CIPC_E_VIOLATED_MOMENTUM : CIPC_OK);
+        assert_true(change > 0); /* there was something to bound */
+    }
+    destroy(model);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_to_the_last_bit),       cmocka_unit_test(test_norm),  cmocka_unit_test(test_cancellation), cmocka_unit_test(test_bad_numbers),
-        cmocka_unit_test(test_what_changes_momentum), cmocka_unit_test(test_bound),
+        cmocka_unit_test(test_what_changes_momentum), cmocka_unit_test(test_bound_of_kicks),
+        cmocka_unit_test(test_kicks_of_a_chain),
+        cmocka_unit_test(test_bound),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

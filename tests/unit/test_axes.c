@@ -132,6 +132,31 @@ static void test_bars_and_level(void **state)
     cairo_surface_destroy(surface);
 }
 
+/* Between the curves and nowhere else; a point alone is seen too. */
+static void test_band(void **state)
+{
+    (void)state;
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, SIZE, SIZE);
+    cairo_t *cr = cairo_create(surface);
+    const double x[] = {0, 1, 2, 3, 4}, lower[] = {0.2, 0.2, 0.3, 0.4, 0.2}, upper[] = {0.6, 0.6, NAN, 0.8, NAN};
+    cipc_axes a = cipc_axes_new(50, 50, 100, 100, false);
+    a.x_lo = 0;
+    a.x_hi = 4;
+    a.y_lo = 0;
+    a.y_hi = 1;
+    a.empty = false;
+    cipc_axes_band(&a, cr, x, lower, upper, 5, red, "band");
+    int row = 0;
+    assert_in_range(red_rows(surface, 62, &row), 39, 41); /* from 0.2 to 0.6 of 100 */
+    assert_in_range(row, 128, 131);
+    assert_int_equal(red_rows(surface, 90, &row), 0); /* broken there */
+    assert_in_range(red_rows(surface, 125, &row), 39, 42); /* the point alone */
+    assert_in_range(row, 108, 111);
+    assert_int_equal(red_rows(surface, 140, &row), 0);
+    cairo_destroy(cr);
+    cairo_surface_destroy(surface);
+}
+
 /* Ticks come to an end on any range. */
 static void test_drawing_extreme_ranges(void **state)
 {
@@ -161,6 +186,7 @@ int main(void)
         cmocka_unit_test(test_logarithmic_range),
         cmocka_unit_test(test_curve_passes_where_it_should_and_breaks_at_gaps),
         cmocka_unit_test(test_bars_and_level),
+        cmocka_unit_test(test_band),
         cmocka_unit_test(test_drawing_extreme_ranges),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -35,6 +35,12 @@
 static const char falling[] = SCENE("", FLOOR ", " CLOTH("0.01"));
 static const char crossing[] = SCENE("", FLOOR ", " CLOTH("0"));
 static const char too_near[] = SCENE("", FLOOR ", " CLOTH("0.0004")); /* the pair's thickness is 0.5e-3: the floor's is 0 */
+/* The same without strain limit, for the other method. */
+#define LIMP_CLOTH                                                                                                                         \
+    "{\"name\": \"cloth\", \"material\": \"cotton\", \"offset\": 1e-3, \"shell\": {\"grid\": {\"size\": [0.2, 0.2], \"cells\": [2, 2]}}, "      \
+    "\"transform\": {\"translate\": [0.13, 0.003, 0.07]}}"
+static const char asynchronous[] = SCENE("\"method\": \"asynchronous\", ", FLOOR ", " LIMP_CLOTH);
+
 typedef struct fixture {
     char program[PATH_MAX];
     path folder, out, scene;
@@ -766,6 +772,149 @@ static void test_compared_queries(void **state)
     assert_message(&o, 2, "CIPC-2001", "no file");
 }
 
+/* ---- The method asynchronous -------------------------------------------------------------------------------------------------- */
+
+/* One file serves both methods, but for what the other does not know: said where it stands, with a remedy that helps. */
+static void test_asynchronous_run(void **state)
+{
+    const fixture *f = *state;
+    outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "method=asynchronous", NULL);
+    assert_message(&o, 2, "CIPC-2005", "bodies.cloth.strain_limit: ");
+    assert_non_null(strstr(o.err, "scene.json:1:"));
+    assert_non_null(strstr(o.err, "--set bodies.cloth.strain_limit=null"));
+    assert_nothing_written(f);
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "method=asynchronous", "--set", "bodies.cloth.strain_limit=null", "--steps=8", "--obj", NULL);
+    assert_string_equal(o.err, "");
+    assert_int_equal(o.exit_status, 0);
+    for (int i = 0; i < RESULT_COUNT; i++) {
+        const path file = path_in(&f->out, result_names[i]);
+        assert_true(file_exists(&file));
+    }
+    const path stats = path_in(&f->out, "stats.jsonl"), last = path_in(&f->out, "obj/frame_00008.obj");
+    assert_true(count_lines(&stats) == 8 && frames_of(f) == 9 && file_exists(&last));
+    json_t *summary = load_result(f, "summary.json");
+    const json_t *invariants = json_object_get(summary, "invariants"), *monitors = json_object_get(summary, "monitors"), *totals = json_object_get(summary, "totals");
+    static const char *const expected[8] = {"holds", "holds", "not checked", "not checked", "holds", "not checked: the energy oscillates", "not checked: gravity", "holds"};
+    for (int i = 0; i < 8; i++) {
+        const char key[3] = {'M', (char)('1' + i), '\0'};
+        assert_string_equal(text_of(invariants, key), expected[i]);
+    }
+    assert_string_equal(text_of(summary, "method"), "asynchronous");
+    const json_int_t points = json_integer_value(json_object_get(monitors, "points_checked")), windows = json_integer_value(json_object_get(monitors, "windows_checked"));
+    assert_true(points - windows == 8 && windows >= 8);
+    assert_true(json_integer_value(json_object_get(json_object_get(totals, "events"), "gravity")) == 8 * 16);
+    assert_true(json_integer_value(json_object_get(json_object_get(summary, "extremes"), "layers")) > 0); /* it has come to the floor */
+    assert_true(json_number_value(json_object_get(monitors, "seconds")) > 0);
+    json_decref(summary);
+    const path plots = path_in(&f->out, "plots.png");
+    cairo_surface_t *surface = cairo_image_surface_create_from_png(plots.text);
+    assert_int_equal(cairo_image_surface_get_width(surface), 1800); /* the plots of the method */
+    cairo_surface_destroy(surface);
+}
+
+/* Without the swept monitor, and without any. */
+static void test_asynchronous_run_unmonitored(void **state)
+{
+    const fixture *f = *state;
+    file_write(&f->scene, asynchronous, strlen(asynchronous));
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "monitor.swept=false", NULL).exit_status, 0);
+    json_t *summary = load_result(f, "summary.json");
+    assert_string_equal(text_of(json_object_get(summary, "invariants"), "M1"), "holds");
+    assert_string_equal(text_of(json_object_get(summary, "invariants"), "M5"), "not checked");
+    assert_int_equal(json_integer_value(json_object_get(json_object_get(summary, "monitors"), "windows_checked")), 0);
+    json_decref(summary);
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--no-monitor", NULL).exit_status, 0);
+    summary = load_result(f, "summary.json");
+    assert_string_equal(text_of(json_object_get(summary, "invariants"), "M1"), "not checked");
+    assert_string_equal(text_of(json_object_get(summary, "invariants"), "M6"), "not checked");
+    json_decref(summary);
+}
+
+/* Two cloths that meet in free space: kicks are opposite to rounding, with friction and restitution too. */
+static void test_asynchronous_momentum(void **state)
+{
+    const fixture *f = *state;
+    static const char thrown[] = SCENE("\"method\": \"asynchronous\", \"gravity\": [0, 0, 0], \"asynchronous\": {\"restitution\": 0.5}, ",
+                                       "{\"name\": \"other\", \"material\": \"cotton\", \"friction\": 0.3, \"shell\": {\"grid\": {\"size\": [0.3, 0.3], \"cells\": [3, 3]}}}, "
+                                       "{\"name\": \"thrown\", \"material\": \"cotton\", \"friction\": 0.3, \"damping\": {\"stiffness\": 1e-5}, \"velocity\": [0.1, -1, 0], \"shell\": "
+                                       "{\"grid\": {\"size\": [0.2, 0.2], \"cells\": [2, 2]}}, \"transform\": {\"translate\": [0.03, 0.01, 0.02]}}");
+    file_write(&f->scene, thrown, strlen(thrown));
+    const outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, NULL);
+    assert_string_equal(o.err, "");
+    json_t *summary = load_result(f, "summary.json");
+    assert_string_equal(text_of(json_object_get(summary, "invariants"), "M7"), "holds");
+    assert_int_equal(json_integer_value(json_object_get(json_object_get(summary, "monitors"), "momentum_checks")), 5);
+    assert_true(json_integer_value(json_object_get(json_object_get(summary, "extremes"), "max_contacts")) > 0);
+    assert_true(json_real_value(json_object_get(json_object_get(summary, "extremes"), "max_momentum_change")) < 1e-15);
+    json_decref(summary);
+}
+
+/* A stall: earlier frames stay, the state reached is written, and a higher cap goes on to the very frames of a run with that cap. */
+static void test_asynchronous_stall(void **state)
+{
+    const fixture *f = *state;
+    file_write(&f->scene, asynchronous, strlen(asynchronous));
+    const outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--steps=6", "--set", "asynchronous.events=1500", NULL);
+    assert_message(&o, 1, "CIPC-1005", "stalled: more than 1500 events");
+    assert_non_null(strstr(o.err, "--resume"));
+    const int frames = frames_of(f);
+    assert_in_range(frames, 2, 6); /* free fall first, then contact, which has many events */
+    const path failed = path_in(&f->out, "failed.obj"), violation = path_in(&f->out, "violation.obj"), stats = path_in(&f->out, "stats.jsonl");
+    assert_true(file_exists(&failed) && !file_exists(&violation));
+    assert_int_equal(count_lines(&stats), frames - 1);
+    json_t *summary = load_result(f, "summary.json");
+    assert_string_equal(text_of(summary, "status"), "NO_PROGRESS");
+    assert_true(json_is_false(json_object_get(summary, "converged")));
+    assert_int_equal(json_integer_value(json_object_get(summary, "steps_taken")), frames - 1);
+    json_decref(summary);
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--steps=6", "--resume", "--set", "asynchronous.thickness=2e-3", NULL).exit_status, 2);
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--steps=6", "--resume", "--set", "asynchronous.events=100000000", NULL).exit_status, 0);
+    int count, numbers;
+    double *resumed = last_positions(f, &count, &numbers);
+    assert_int_equal(count, 7);
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--steps=6", NULL).exit_status, 0);
+    double *in_one_go = last_positions(f, &count, &numbers);
+    assert_memory_equal(resumed, in_one_go, (size_t)numbers * sizeof *resumed);
+    free(resumed);
+    free(in_one_go);
+}
+
+static void test_asynchronous_interruptions(void **state)
+{
+    const fixture *f = *state;
+    file_write(&f->scene, asynchronous, strlen(asynchronous));
+    const outcome o = interrupt(f, SIGINT, 5);
+    assert_int_equal(o.exit_status, 1);
+    assert_non_null(strstr(o.err, "interrupted"));
+    const path failed = path_in(&f->out, "failed.obj");
+    assert_false(file_exists(&failed)); /* nothing failed */
+    json_t *summary = load_result(f, "summary.json");
+    assert_string_equal(text_of(summary, "status"), "INTERRUPTED");
+    json_decref(summary);
+    resume_and_compare(f, 3);
+    assert_int_equal(interrupt(f, SIGKILL, 4).exit_status, -1);
+    resume_and_compare(f, 2);
+}
+
+/* There is no CCD whose queries could be recorded; and verdicts are written all the same. */
+static void test_asynchronous_refusals(void **state)
+{
+    const fixture *f = *state;
+    const path record = path_in(&f->folder, "ccd.jsonl"), verdicts = path_in(&f->folder, "verdicts.xml");
+    file_write(&f->scene, asynchronous, strlen(asynchronous));
+    outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--record-ccd", record.text, "--junit", verdicts.text, NULL);
+    assert_message(&o, 2, "CIPC-2001", "--record-ccd: ");
+    assert_file_contains(&verdicts, "--record-ccd");
+    assert_nothing_written(f);
+    assert_false(file_exists(&record));
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "asynchronous.thickness=-1", NULL);
+    assert_message(&o, 2, "CIPC-2005", "--set asynchronous.thickness=-1");
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--junit", verdicts.text, NULL).exit_status, 0);
+    assert_file_contains(&verdicts, "not checked: the energy oscillates");
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--resume", "--set", "method=c-ipc", NULL);
+    assert_message(&o, 2, "CIPC-2012", "method");
+}
+
 static void test_resume_refusals(void **state)
 {
     const fixture *f = *state;
@@ -804,6 +953,12 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_killed_run, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_recorded_queries, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_compared_queries, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_asynchronous_run, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_asynchronous_run_unmonitored, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_asynchronous_momentum, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_asynchronous_stall, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_asynchronous_interruptions, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_asynchronous_refusals, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_resume_refusals, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

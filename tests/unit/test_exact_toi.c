@@ -49,6 +49,10 @@ static void test_head_on(void **state)
             expect(&path, xi, nextafter(t, 0), CIPC_NO, 0, 0);
             expect(&away, xi, 1, CIPC_NO, 0, 0);
         }
+        /* Times that are doubles, at a third of t_max: the interval that encloses them never ends at them. */
+        cipc_stencil_path path = head_on((cipc_pair_kind)kind, 2);
+        expect(&path, 0.5, 0.75, CIPC_YES, 0.25, 0.25);
+        expect(&path, 0, 0.75, CIPC_YES, 0.5, 0.5);
         cipc_stencil_path third = head_on((cipc_pair_kind)kind, 3); /* at 1/3, which is no double */
         double lo = 1.0 / 3;
         lo = lo * 3 > 1 || (long double)lo > 1.0L / 3 ? nextafter(lo, 0) : lo;

@@ -92,12 +92,35 @@ static void test_refused(void **state)
     sheet_scene_free(&scene);
 }
 
+/* What the method does not know is not left out silently. */
+static void test_models_of_other_methods(void **state)
+{
+    (void)state;
+    sheet_scene scene;
+    make_scene(&scene);
+    const cipc_implicit_options options = cipc_implicit_options_default();
+    cipc_stepper *stepper;
+    cipc_error error;
+    scene.model->bodies[0].material.membrane = CIPC_MEMBRANE_SPRINGS;
+    assert_int_equal(cipc_stepper_create(&stepper, scene.model, &options, &error), CIPC_E_WRONG_TYPE);
+    assert_non_null(strstr(error.what, "springs"));
+    scene.model->bodies[0].material.membrane = CIPC_MEMBRANE_NONE;
+    int node = 0;
+    const cipc_load load = {.node_count = 1, .nodes = &node, .force = {1, 0, 0}, .end = 1};
+    assert_int_equal(cipc_model_add_load(scene.model, &load, NULL), CIPC_OK);
+    assert_int_equal(cipc_stepper_create(&stepper, scene.model, &options, &error), CIPC_E_WRONG_TYPE);
+    assert_non_null(strstr(error.what, "loads"));
+    assert_null(stepper);
+    sheet_scene_free(&scene);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_defaults),
         cmocka_unit_test(test_phase_names),
         cmocka_unit_test(test_refused),
+        cmocka_unit_test(test_models_of_other_methods),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -203,6 +203,17 @@ static void test_verdicts_of_runs(void **state)
     assert_cases(&s, ".SSSSSSSS", "no accepted point");
 }
 
+static void test_verdicts_of_the_method_asynchronous(void **state)
+{
+    (void)state;
+    cipc_run_summary s = good_run();
+    s.method = CIPC_METHOD_ASYNCHRONOUS;
+    s.energy_checks = 0;
+    s.windows_checked = 6;
+    s.limited_triangles = 0;
+    assert_cases(&s, "...S..S..", "not checked: the energy oscillates");
+}
+
 static void test_verdicts_of_runs_that_went_wrong(void **state)
 {
     (void)state;
@@ -237,7 +248,7 @@ int main(void)
         cmocka_unit_test(test_suites_and_counts),          cmocka_unit_test(test_text_of_any_content),
         cmocka_unit_test(test_against_the_library),        cmocka_unit_test(test_a_folder_that_is_not_there),
         cmocka_unit_test(test_out_of_memory),              cmocka_unit_test(test_verdicts_of_runs),
-        cmocka_unit_test(test_verdicts_of_runs_that_went_wrong),
+        cmocka_unit_test(test_verdicts_of_runs_that_went_wrong), cmocka_unit_test(test_verdicts_of_the_method_asynchronous),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

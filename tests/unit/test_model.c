@@ -199,6 +199,10 @@ static void test_numbers_out_of_range(void **state)
         *cases[i].number = cases[i].bad;
         assert_refused(&d, CIPC_E_OUT_OF_RANGE, cases[i].name);
     }
+    d = describe("cloth", rectangle, 4, rectangle_triangles, 2);
+    d.material.membrane = CIPC_MEMBRANE_SPRINGS; /* they too have a modulus */
+    d.material.membrane_young = 0;
+    assert_refused(&d, CIPC_E_OUT_OF_RANGE, "membrane.young");
 }
 
 /* Numbers that nothing uses need no sense: no membrane, no limit. */

@@ -79,6 +79,27 @@ static void test_values_are_json_or_else_text(void **state)
     scene_reader_free(&r);
 }
 
+/* null takes a member away, in a size block too. */
+static void test_null_takes_away(void **state)
+{
+    (void)state;
+    const char *const overrides[] = {"bodies.ball.friction=null", "gravity=null", "fresh={\"a\": 1, \"b\": 2}", "fresh.a=null"};
+    scene_reader r = applied(4, overrides);
+    assert_int_equal(r.status, CIPC_OK);
+    assert_null(json_object_get(body(&r, 0), "friction"));
+    assert_null(json_object_get(r.root, "gravity"));
+    assert_int_equal(json_object_size(json_object_get(r.root, "fresh")), 1);
+    scene_cursor root = scene_root(r.root), bodies = scene_member(&root, "bodies"), ball = scene_element(&bodies, 0);
+    scene_number(&r, &ball, "friction", SCENE_REQUIRED_NUMBER, scene_any); /* what is missing then is the override's doing */
+    assert_rejection(&r, CIPC_E_MISSING_KEY, "--set bodies.ball.friction=null", "missing");
+    scene_reader_free(&r);
+    r = reader_of("{\"sizes\": {\"ci\": {\"a.b\": null}}, \"a\": {\"b\": 1, \"c\": 2}}");
+    scene_apply_overrides(&r, 0, NULL);
+    assert_int_equal(r.status, CIPC_OK);
+    assert_int_equal(json_object_size(json_object_get(r.root, "a")), 1);
+    scene_reader_free(&r);
+}
+
 static void assert_refused(const char *override, cipc_status status, const char *what)
 {
     char place[300];
@@ -98,6 +119,8 @@ static void test_bad_overrides(void **state)
     assert_refused("bodies.clot.offset=1", CIPC_E_USAGE, "no element 'clot'; the nearest is cloth");
     assert_refused("bodies.2.offset=1", CIPC_E_USAGE, "no element '2'");
     assert_refused("gravity.3=1", CIPC_E_USAGE, "no element '3'");
+    assert_refused("bodies.ball.frction=null", CIPC_E_USAGE, "no key to take away called 'frction'; the nearest is friction");
+    assert_refused("neither.there=null", CIPC_E_USAGE, "no key to take away called 'there'");
     assert_refused("steps.x=1", CIPC_E_USAGE, "neither an object nor an array");
     assert_refused("steps.x.y=1", CIPC_E_USAGE, "neither an object nor an array");
     assert_refused("gravity=[1, 2", CIPC_E_SYNTAX, "expected");
@@ -162,6 +185,7 @@ int main(void)
         cmocka_unit_test(test_the_size_block_is_ci_by_default),
         cmocka_unit_test(test_the_last_size_named_is_chosen_and_overrides_come_after_it),
         cmocka_unit_test(test_values_are_json_or_else_text),
+        cmocka_unit_test(test_null_takes_away),
         cmocka_unit_test(test_bad_overrides),
         cmocka_unit_test(test_bad_size_blocks),
         cmocka_unit_test(test_errors_name_the_override),

@@ -62,6 +62,24 @@ static void test_odd_numbers(void **state)
     assert_shows(&l, "left -");
 }
 
+static void test_the_method_asynchronous(void **state)
+{
+    (void)state;
+    const cipc_asynchronous_report reports[] = {{.total_events = 12345, .layers = 7, .contacts = 34, .smallest_step = 2.5e-6}, {.smallest_step = INFINITY}};
+    static const char *const parts[2][7] = {{"step 3/100", "t 0.03 s", "events 12345", "layers 7  contacts 34", "least step 2.50e-06 s", "gap 1.25e-04 m", "left 1:05"},
+                                            {"\r\033[K", "events 0", "layers 0  contacts 0", "least step -", "gap -", "left -", ""}};
+    for (int i = 0; i < 2; i++) {
+        line l = {{0}};
+        FILE *terminal = tmpfile();
+        cipc_asynchronous_progress_line(terminal, 3, 100, 0.03, &reports[i], i == 0 ? 1.25e-4 : INFINITY, i == 0 ? 65 : NAN);
+        rewind(terminal);
+        assert_in_range(fread(l.text, 1, sizeof l.text - 1, terminal), 1, sizeof l.text - 1);
+        fclose(terminal);
+        assert_null(strchr(l.text, '\n'));
+        for (int k = 0; k < 7; k++) assert_shows(&l, parts[i][k]);
+    }
+}
+
 static void test_clear(void **state)
 {
     (void)state;
@@ -79,6 +97,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_ordinary_numbers),
         cmocka_unit_test(test_odd_numbers),
+        cmocka_unit_test(test_the_method_asynchronous),
         cmocka_unit_test(test_clear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

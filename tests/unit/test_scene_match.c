@@ -55,6 +55,37 @@ static void test_first_difference_is_named(void **state)
     assert_differs("[]", "");
 }
 
+/* The cap on events: who raises it wants to go on after a stall. Everything else of the block counts. */
+static void test_the_method_asynchronous(void **state)
+{
+    (void)state;
+    static const char one[] = "{\"method\": \"asynchronous\", \"asynchronous\": {\"thickness\": 1, \"events\": 5}, \"loads\": []}";
+    char path[64];
+    assert_true(cipc_scene_match(one, "{\"method\": \"asynchronous\", \"asynchronous\": {\"thickness\": 1, \"events\": 50}, \"loads\": []}", path, sizeof path));
+    assert_false(cipc_scene_match(one, "{\"method\": \"asynchronous\", \"asynchronous\": {\"thickness\": 2, \"events\": 5}, \"loads\": []}", path, sizeof path));
+    assert_string_equal(path, "asynchronous.thickness");
+    assert_false(cipc_scene_match(one, "{\"method\": \"asynchronous\", \"asynchronous\": {\"thickness\": 1}, \"loads\": [{}]}", path, sizeof path));
+    assert_string_equal(path, "loads.0");
+    assert_false(cipc_scene_match(one, "{\"method\": \"asynchronous\", \"asynchronous\": {\"thickness\": 1}, \"loads\": [], \"events\": 1}", path, sizeof path));
+    assert_string_equal(path, "events");
+}
+
+/* The block is of that method only, and an older program's scene does not have it. */
+static void test_the_block_of_another_method(void **state)
+{
+    (void)state;
+    static const char older[] = "{\"steps\": 1, \"method\": \"c-ipc\"}", newer[] = "{\"asynchronous\": {\"thickness\": 1}, \"loads\": [], \"method\": \"c-ipc\"}",
+                      other[] = "{\"asynchronous\": {\"thickness\": 1}, \"loads\": [], \"method\": \"asynchronous\"}";
+    char path[64];
+    assert_true(cipc_scene_match(older, newer, path, sizeof path));
+    assert_true(cipc_scene_match(newer, older, path, sizeof path));
+    assert_true(cipc_scene_match("{}", "{\"asynchronous\": {}}", path, sizeof path)); /* c-ipc is the method of a scene that says nothing */
+    assert_false(cipc_scene_match(newer, other, path, sizeof path));
+    assert_string_equal(path, "method");
+    assert_false(cipc_scene_match(other, newer, path, sizeof path));
+    assert_string_equal(path, "method");
+}
+
 static void test_steps_count_below_the_root(void **state)
 {
     (void)state;
@@ -85,6 +116,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_order_and_layout_do_not_matter), cmocka_unit_test(test_members_that_change_no_frame),
         cmocka_unit_test(test_first_difference_is_named),      cmocka_unit_test(test_steps_count_below_the_root),
+        cmocka_unit_test(test_the_method_asynchronous),        cmocka_unit_test(test_the_block_of_another_method),
         cmocka_unit_test(test_text_that_is_not_json),          cmocka_unit_test(test_long_path_is_cut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

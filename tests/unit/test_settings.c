@@ -31,7 +31,7 @@ static void test_defaults_are_the_integrators_own(void **state)
     assert_true(o->ccd.slackness == want.ccd.slackness && o->ccd.max_iterations == want.ccd.max_iterations &&
                 o->ccd.method == CIPC_CCD_CERTIFIED && !o->ccd.refine && s->monitor_swept);
     assert_true(o->barrier_stiffness == 0 && !o->released && o->integrator.beta == 1 && o->integrator.gamma == 0);
-    assert_true(!o->quasistatic && o->strain_coupling == CIPC_STRAIN_COUPLED);
+    assert_true(!o->quasistatic && o->strain_coupling == CIPC_STRAIN_COUPLED && s->method == CIPC_METHOD_C_IPC);
     assert_true(s->model->gravity[1] == -9.81 && s->model->gravity[0] == 0);
     assert_true(s->monitor && s->monitor_reach == want.contact.dhat && !s->write_obj && s->camera_zoom == 1 && s->seed == 1);
     assert_string_equal(s->title, "");

@@ -65,6 +65,8 @@ static void test_round_shells(void **state)
     assert_same_mesh(&got, &want, cipc_mesh_revolution(&want, 3, profile, 12, NULL));
     got = read_mesh("{\"cylinder\": {\"radius\": 0.25, \"length\": 1, \"around\": 8, \"along\": 5}}");
     assert_same_mesh(&got, &want, cipc_mesh_cylinder(&want, 0.25, 1, 8, 5, NULL));
+    got = read_mesh("{\"nails\": {\"count\": [3, 2], \"spacing\": [0.1, 0.2], \"width\": 0.01, \"height\": 0.06}}");
+    assert_same_mesh(&got, &want, cipc_mesh_nails(&want, &(cipc_nails){{3, 2}, {0.1, 0.2}, 0.01, 0.06}, NULL));
     got = read_mesh("{\"capsule\": {\"radii\": [0.1, 0.2], \"length\": 0.5, \"around\": 8, \"along\": 5}}");
     assert_same_mesh(&got, &want, cipc_mesh_capsule(&want, (const double[2]){0.1, 0.2}, 0.5, 8, 5, NULL));
 }
@@ -88,6 +90,8 @@ static void test_garments(void **state)
 static void test_rejections_of_garments(void **state)
 {
     (void)state;
+    assert_refused("{\"nails\": {\"count\": [2, 1], \"spacing\": [0.1, 0.1], \"width\": 0.1, \"height\": 1}}", CIPC_E_OUT_OF_RANGE,
+                   "t.json:1:2 nails", "would meet");
     assert_refused("{\"capsule\": {\"radii\": [1], \"length\": 1, \"around\": 8, \"along\": 5}}", CIPC_E_OUT_OF_RANGE,
                    "t.json:1:14 capsule.radii", "must have 2");
     assert_refused("{\"capsule\": {\"radii\": [1, 1], \"length\": 1, \"around\": 8, \"along\": 1}}", CIPC_E_OUT_OF_RANGE,

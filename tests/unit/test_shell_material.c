@@ -121,6 +121,18 @@ static void test_an_orthotropic_membrane_of_numbers(void **state)
     assert_true(m.orthotropic.moduli[1] == 1 && m.orthotropic.limits[1] == 0.2);
 }
 
+/* Springs have one modulus; Poisson's ratio of a named material is not theirs. */
+static void test_a_membrane_of_springs(void **state)
+{
+    (void)state;
+    cipc_material m = read_twice("{\"density\": 7, \"thickness\": 8, \"membrane\": {\"model\": \"springs\", \"young\": 5}, \"bending\": {\"young\": 0}}", plain);
+    assert_int_equal(m.membrane, CIPC_MEMBRANE_SPRINGS);
+    assert_true(m.membrane_young == 5 && m.membrane_poisson == 1.0 / 3);
+    m = read_twice("{\"material\": \"cotton\", \"membrane_factor\": 0.5, \"membrane\": {\"model\": \"springs\"}}", plain);
+    assert_int_equal(m.membrane, CIPC_MEMBRANE_SPRINGS);
+    assert_true(m.membrane_young == 0.5 * 0.821e6 && m.membrane_poisson == 1.0 / 3 && m.bending_poisson == 0.243);
+}
+
 static void test_limits_of_compression(void **state)
 {
     (void)state;
@@ -168,6 +180,10 @@ static void test_rejections(void **state)
                    "at most 0.5");
     assert_refused("{\"material\": \"wool\", \"membrane\": {\"model\": \"neohookean\"}}", CIPC_E_OUT_OF_RANGE, "t.json:1:35 membrane.model",
                    "'neo-hookean'");
+    assert_refused("{\"material\": \"wool\", \"membrane\": {\"model\": \"springs\", \"poisson\": 0.3}}", CIPC_E_OUT_OF_RANGE, "t.json:1:55 membrane.poisson",
+                   "springs make it 1/3: leave it out");
+    assert_refused("{\"density\": 1, \"thickness\": 2, \"membrane\": {\"model\": \"springs\"}, \"bending\": {\"young\": 0}}", CIPC_E_MISSING_KEY,
+                   "t.json:1:32 membrane.young", "missing");
     assert_refused("{\"material\": \"wool\", \"bending\": {\"constant\": \"paper\"}}", CIPC_E_OUT_OF_RANGE, "t.json:1:34 bending.constant",
                    "'plate'");
     assert_refused("{\"material\": \"wool\", \"bending\": {\"poisson\": -1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:34 bending.poisson",
@@ -230,6 +246,7 @@ int main(void)
         cmocka_unit_test(test_released_hinges),
         cmocka_unit_test(test_a_fabric),
         cmocka_unit_test(test_an_orthotropic_membrane_of_numbers),
+        cmocka_unit_test(test_a_membrane_of_springs),
         cmocka_unit_test(test_limits_of_compression),
         cmocka_unit_test(test_rejections),
         cmocka_unit_test(test_limits_are_rejected),

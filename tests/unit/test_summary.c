@@ -98,6 +98,32 @@ static void test_verdicts_of_violations(void **state)
     assert_string_equal(cipc_run_summary_verdict(&s, 9), "not checked");
 }
 
+/* Windows of paths are for M5, frames for the others; the energy oscillates. */
+static void test_verdicts_of_the_method_asynchronous(void **state)
+{
+    (void)state;
+    cipc_run_summary s = good_run();
+    s.method = CIPC_METHOD_ASYNCHRONOUS;
+    s.energy_checks = 0;
+    s.limited_triangles = 0;
+    s.windows_checked = 7;
+    assert_verdicts(&s, "hh--h--h");
+    s.momentum_checks = 3;
+    s.tetrahedra = 1;
+    assert_verdicts(&s, "hh-hh-hh");
+    s.windows_checked = 10; /* no frame has been looked at yet */
+    assert_verdicts(&s, "----h-h-");
+    s.status = CIPC_E_VIOLATED_SWEPT;
+    assert_verdicts(&s, "----v-h-");
+    s.windows_checked = 9; /* at the only frame, the second to look broke */
+    s.status = CIPC_E_VIOLATED_INTERSECTION;
+    assert_verdicts(&s, "v---h-hh");
+    s.windows_checked = 0;
+    s.swept = false;
+    s.status = CIPC_OK;
+    assert_verdicts(&s, "hh-h--hh");
+}
+
 static json_t *written(const cipc_run_summary *s)
 {
     cipc_error error;
@@ -159,6 +185,56 @@ static void test_fields(void **state)
     assert_true(json_real_value(at(o, "monitors.percent")) == 25);
     assert_true(json_integer_value(at(o, "seed")) == 7);
     assert_string_equal(json_string_value(at(o, "versions.cipc")), cipc_version());
+    json_decref(o);
+}
+
+static void test_fields_of_the_method_asynchronous(void **state)
+{
+    (void)state;
+    cipc_run_summary s = good_run();
+    s.method = CIPC_METHOD_ASYNCHRONOUS;
+    s.energy_checks = 0;
+    s.windows_checked = 6;
+    cipc_asynchronous_report r = {.events = {[CIPC_EVENT_PENALTY] = 30, [CIPC_EVENT_SLAB] = 4}, .total_events = 34, .activations = 3, .deactivations = 2, .max_contacts = 5, .layers = 2,
+                                  .min_gap = 1e-4, .smallest_step = 1e-6, .deepest = {.layers = 2, .kind = CIPC_POINT_TRIANGLE, .nodes = {1, 2, 3, 4}, .gap = 2e-4, .step = 1e-5}};
+    r.seconds[CIPC_ASYNCHRONOUS_PHASE_MONITOR] = 4;
+    cipc_asynchronous_summary_add(&s, &r, NULL);
+    r.layers = 1; /* neither deeper nor as many */
+    r.total_events = 10;
+    r.smallest_step = 1e-5;
+    r.min_gap = 1e-3;
+    cipc_step_invariants seen = cipc_step_invariants_none();
+    const cipc_invariant_report window = {.min_gap = INFINITY};
+    cipc_step_invariants_add_window(&seen, &window);
+    cipc_asynchronous_summary_add(&s, &r, &seen);
+    s.monitored = true;
+    json_t *o = written(&s);
+    assert_string_equal(json_string_value(at(o, "method")), "asynchronous");
+    assert_string_equal(json_string_value(at(o, "invariants.M6")), "not checked: the energy oscillates");
+    assert_string_equal(json_string_value(at(o, "invariants.M5")), "holds");
+    const struct { const char *key; int count; } counts[] = {{"totals.events.penalty", 60}, {"totals.events.slab", 8}, {"totals.events.cell", 0}, {"totals.total_events", 44},
+                                                             {"totals.activations", 6}, {"totals.deactivations", 4}, {"extremes.max_events", 34}, {"extremes.layers", 2},
+                                                             {"extremes.max_contacts", 5}, {"extremes.deepest.layers", 2}, {"monitors.windows_checked", 7}, {"monitors.points_checked", 11}};
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        assert_int_equal(json_integer_value(at(o, counts[i].key)), counts[i].count);
+    }
+    assert_string_equal(json_string_value(at(o, "extremes.deepest.kind")), "point_triangle");
+    assert_true(json_real_value(at(o, "extremes.smallest_step")) == 1e-6 && json_real_value(at(o, "extremes.solver_min_gap")) == 1e-4);
+    assert_true(json_real_value(at(o, "monitors.seconds")) == 8 && json_real_value(at(o, "seconds.monitor")) == 8 && json_real_value(at(o, "seconds.slab_processing")) == 0);
+    assert_null(json_object_get(at(o, "totals"), "newton_iterations"));
+    assert_null(json_object_get(at(o, "extremes"), "max_newton_iterations"));
+    assert_null(json_object_get(at(o, "seconds"), "factorization"));
+    assert_int_equal(json_object_size(at(o, "totals.events")), CIPC_EVENT_COUNT);
+    json_decref(o);
+    s.monitored = false;
+    o = written(&s);
+    assert_string_equal(json_string_value(at(o, "invariants.M6")), "not checked");
+    json_decref(o);
+    s = good_run(); /* nothing of it where another method ran */
+    o = written(&s);
+    assert_string_equal(json_string_value(at(o, "method")), "c-ipc");
+    assert_null(json_object_get(at(o, "totals"), "events"));
+    assert_null(json_object_get(at(o, "monitors"), "windows_checked"));
     json_decref(o);
 }
 
@@ -281,6 +357,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_verdicts_of_good_runs), cmocka_unit_test(test_verdicts_of_violations),
+        cmocka_unit_test(test_verdicts_of_the_method_asynchronous), cmocka_unit_test(test_fields_of_the_method_asynchronous),
         cmocka_unit_test(test_fields), cmocka_unit_test(test_momentum), cmocka_unit_test(test_counts_of_the_model), cmocka_unit_test(test_failed_run),
         cmocka_unit_test(test_interrupted_and_unmonitored_run), cmocka_unit_test(test_adding_steps),
         cmocka_unit_test(test_unwritable),

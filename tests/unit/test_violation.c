@@ -51,8 +51,30 @@ static void test_fields(void **state)
     folder_remove(&folder);
 }
 
+static void test_of_the_method_asynchronous(void **state)
+{
+    (void)state;
+    cipc_error error, violation;
+    const path folder = folder_make(), file = path_in(&folder, "violation.json");
+    const double window[2] = {0.05, 0.0625};
+    cipc_fail(&violation, CIPC_E_VIOLATED_SWEPT, "step 2", "node 5 passes");
+    assert_int_equal(cipc_asynchronous_violation_write(file.text, 1, 0.04, window, NULL, &violation, &error), CIPC_OK);
+    json_t *o = json_load_file(file.text, JSON_REJECT_DUPLICATES, NULL);
+    const char *status, *where, *what;
+    int number, steps;
+    double time, begin, end;
+    assert_int_equal(json_unpack_ex(o, NULL, JSON_STRICT, "{s:s, s:i, s:s, s:s, s:i, s:F, s:{s:F, s:F}, s:n}", "status", &status, "number", &number, "where", &where, "what", &what,
+                                    "steps_taken", &steps, "time_before", &time, "window", "begin", &begin, "end", &end, "report"), 0);
+    assert_string_equal(status, "VIOLATED_SWEPT");
+    assert_string_equal(what, "node 5 passes");
+    assert_true(number == 3005 && steps == 1 && time == 0.04 && begin == 0.05 && end == 0.0625);
+    json_decref(o);
+    assert_int_equal(cipc_asynchronous_violation_write("/no/such/folder/v.json", 1, 0.04, window, NULL, &violation, &error), CIPC_E_IO);
+    folder_remove(&folder);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fields)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_fields), cmocka_unit_test(test_of_the_method_asynchronous)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
