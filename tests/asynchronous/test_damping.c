@@ -6,10 +6,12 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <stdio.h>
 
 #include "asynchronous/integrator.h"
 #include "base/vector.h"
 #include "support/asynchronous_scene.h"
+#include "support/validation.h"
 
 /* One degree of freedom C, a tick every h: C += h C', then C' -= h omega^2 (C + beta C'). That is a linear map with the determinant D = 1 - h beta omega^2, and what two points of the plane span with
  * their images changes by D: Q = C'^2 + omega^2 (beta + h) C C' + omega^2 C^2 is D^k Q_0 after k ticks, whatever the phase. */
@@ -41,6 +43,9 @@ static void decays(asynchronous_scene *s, measure *look, double omega2, double b
     }
     const double decay = -log(left) / s->sheet.state->time;
     print_message("%s: omega = %.4g/s, beta = %.3g s, h = %.3g s: %.3g left, off its closed form by %.2g; rate %.5g/s, beta omega^2 = %.5g/s\n", what, sqrt(omega2), beta, h, left, off, decay, beta * omega2);
+    char scene[128];
+    (void)snprintf(scene, sizeof scene, "asynchronous: damped swing of a %s", what);
+    validation_row(scene, "decay of its energy, 1/s", -log(loss) / h, decay, tolerance);
     assert_true(off < tolerance);
     /* -log(1 - y)/y - 1 < y for y < 1/2: the rate is beta omega^2 of the differential equation, but for a part y of it. */
     assert_true(fabs(decay / (beta * omega2) - 1) < h * beta * omega2 + tolerance);

@@ -6,12 +6,14 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <stdio.h>
 
 #include "asynchronous/integrator.h"
 #include "support/claim.h"
 #include "support/exact_geometry.h"
 #include "support/impact_scene.h"
 #include "support/layer_potential.h"
+#include "support/validation.h"
 
 static const layer_law law = {0.1, 1000};
 static const double pi = 3.14159265358979323846;
@@ -159,7 +161,7 @@ static void test_growth_with_speed(void **state)
         int n = 0;
         const growth g = measure(speeds[i], gamma);
         const double predicted = predicted_ticks(speeds[i], gamma, &n);
-        print_message("%4g m/s: %5.1f layers, %6.1f ticks, predicted %6.1f, idle ticks %5.1f, certificates %5.1f\n", speeds[i], g.layers, g.ticks, predicted, g.idle, g.certificates);
+        print_message("%4g m/s: %5.1f layers, %6.1f ticks, closed form %6.1f, idle ticks %5.1f, certificates %5.1f\n", speeds[i], g.layers, g.ticks, predicted, g.idle, g.certificates);
         layers[i] = g.layers;
         ticks[i] = g.ticks;
         others = fmax(others, (g.idle + g.certificates) / g.layers);
@@ -167,11 +169,13 @@ static void test_growth_with_speed(void **state)
          * at most (test_impact). */
         const double allowed = 4 * 0.5 * sqrt(n) / sqrt(PHASES) + n * gamma * gamma * predicted;
         off = fmax(off, fabs(g.ticks - predicted) / allowed);
+        char scene[128];
+        (void)snprintf(scene, sizeof scene, "asynchronous: impact at %g m/s, gamma = %g (T-A10)", speeds[i], gamma);
+        validation_row(scene, "ticks of layers, mean", predicted, g.ticks, allowed / predicted);
     }
-    /* Small numbers of layers are not yet where the law is: ticks from 30 m/s on. A slope over lnx = 3.5 of points that are off by 3 % at most (n gamma^2 2/7) is off by less than 0.01. */
-    const double tolerance = 0.01;
-    claim_within("A4", "head-on impact at 1 to 1000 m/s: layers ~ v^p, p (4/7)", slope(speeds, layers, COUNT), "1", 4.0 / 7 - tolerance, 4.0 / 7 + tolerance);
-    claim_within("A4", "the same from 30 m/s on: ticks of layers ~ v^p, p (2/7)", slope(speeds + FIRST_DEEP, ticks + FIRST_DEEP, COUNT - FIRST_DEEP), "1", 2.0 / 7 - tolerance, 2.0 / 7 + tolerance);
+    /* Small numbers of layers are not yet where the law is: ticks from 30 m/s on. A slope over ln x = 3.5 of points that are off by 3 % at most (n gamma^2 2/7) is off by less than 0.01. */
+    claim_within("A4", "head-on impact at 1 to 1000 m/s: layers ~ v^p, p (4/7)", slope(speeds, layers, COUNT), "1", 0.561, 0.581);
+    claim_within("A4", "the same from 30 m/s on: ticks of layers ~ v^p, p (2/7)", slope(speeds + FIRST_DEEP, ticks + FIRST_DEEP, COUNT - FIRST_DEEP), "1", 0.276, 0.296);
     claim_figure("A4", "the same: ticks off the closed form, part of what phase and step explain, largest", off, "1", CLAIM_AT_MOST, 1);
     claim_figure("A4", "the same: certificates and idle ticks for each layer, most", others, "1", CLAIM_AT_MOST, others_of_a_layer);
 }

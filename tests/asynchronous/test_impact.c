@@ -6,10 +6,12 @@
 #include <cmocka.h>
 
 #include <math.h>
+#include <stdio.h>
 
 #include "support/claim.h"
 #include "support/impact_scene.h"
 #include "support/layer_potential.h"
+#include "support/validation.h"
 
 static const layer_law law = {0.1, 1000};
 
@@ -68,8 +70,10 @@ static void test_layers_and_gaps(void **state)
         asynchronous_scene_build(&s);
         asynchronous_steps(&s, 1);
         assert_true(impact_speed(&s, 0) > 0 && impact_gap(&s, 0) > impact_thickness);
-        const double off = fabs(s.min_gap - d) / step_explains(speed, published[i].layers, force);
-        print_message("%3g m/s: %d layers, least gap %.6f m, closed form %.6f m, off %.2g of what the step explains\n", speed, s.layers, s.min_gap, d, off);
+        const double explained = step_explains(speed, published[i].layers, force), off = fabs(s.min_gap - d) / explained;
+        char scene[128];
+        (void)snprintf(scene, sizeof scene, "asynchronous: head-on impact at %g m/s through %d layers (T-A1)", speed, s.layers);
+        validation_row(scene, "least gap, m", d, s.min_gap, explained / d);
         gap_off = fmax(gap_off, off);
         layers_off = fmax(layers_off, fabs((double)(s.layers - published[i].layers)));
         asymptote_off = fmax(asymptote_off, fabs(asymptote / pow(impact_thickness / s.min_gap, 4) - 1));
