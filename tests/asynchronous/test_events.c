@@ -154,7 +154,7 @@ static void test_growth_with_speed(void **state)
 {
     (void)state;
     enum { COUNT = 7, FIRST_DEEP = 3 };
-    static const double gamma = 0.025, others_of_a_layer = 3;
+    static const double gamma = 0.025, others_of_a_layer = 5;
     const double speeds[COUNT] = {1, 3, 10, 30, 100, 300, 1000};
     double layers[COUNT], ticks[COUNT], others = 0, off = 0;
     for (int i = 0; i < COUNT; i++) {
