@@ -271,6 +271,12 @@ static void test_rest(void **state)
     assert_true(t.two.a->pairs.slab[t.pair].half < 0.5 * (0.02 + cipc_layer_thickness(ETA1, 3)) * (1 + 1e-6)); /* certified against coming back */
     assert_int_equal(t.two.a->report.events[CIPC_EVENT_IDLE], 1);
     assert_true(asynchronous_queue_time(&t.two.a->queue, t.two.a->pairs.pair[t.pair].layer[0].event) == next);
+    three_layers(&t, 1.2, 1); /* out of reach of the second as well: both rest, the first does not */
+    tick(&t, 3);
+    assert_int_equal(layers(&t), 1);
+    three_layers(&t, 1.5, 1); /* of all */
+    tick(&t, 3);
+    assert_int_equal(layers(&t), 0);
     three_layers(&t, 1.02, -1); /* closing */
     tick(&t, 3);
     assert_int_equal(layers(&t), 3);
