@@ -8,11 +8,12 @@
 
 #include "asynchronous/integrator.h"
 #include "support/asynchronous_crowd.h"
+#include "support/claim.h"
 #include "support/exact_geometry.h"
 
 static double decades(uint64_t *seed, double low, double high) { return exp(random_uniform(seed, log(low), log(high))); }
 
-typedef struct tally { int done, stalled, too_near, deep; long paths, contacts; double gap; } tally;
+typedef struct tally { int done, stalled, violations, deep; long paths, contacts; double gap; } tally;
 
 /* Somewhere else in the world, where coordinates have fewer digits to spare. */
 static void move_away(asynchronous_scene *s, uint64_t *seed)
@@ -68,8 +69,10 @@ static void live(asynchronous_scene *s, tally *seen)
         status = asynchronous_try_step(s);
         if (!status) crowd_count_contacts(s, contacts);
     }
+    const bool violated = cipc_status_exit(status) == 3;
     if (status && status != CIPC_E_NO_PROGRESS) print_error("%s: %s: %s\n", cipc_status_name(status), s->error.place, s->error.what);
-    assert_true(status == CIPC_OK || status == CIPC_E_NO_PROGRESS);
+    assert_true(status == CIPC_OK || status == CIPC_E_NO_PROGRESS || violated);
+    seen->violations += violated;
     status ? seen->stalled++ : seen->done++;
     seen->deep += s->layers > 20;
     seen->paths += s->paths_checked;
@@ -77,7 +80,8 @@ static void live(asynchronous_scene *s, tally *seen)
     for (int k = 0; k < CIPC_PAIR_KIND_COUNT; k++) seen->contacts += contacts[k];
 }
 
-static void live_all(uint64_t seed, bool wild)
+/* Returns how many of sixty runs the monitors objected to. */
+static int live_all(uint64_t seed, bool wild)
 {
     tally seen = {.gap = INFINITY};
     for (int trial = 0; trial < 60; trial++) {
@@ -87,26 +91,22 @@ static void live_all(uint64_t seed, bool wild)
         asynchronous_scene_free(&s);
     }
     assert_true(seen.done >= 10 && seen.stalled >= 10 && seen.deep >= 20 && seen.contacts >= 100 && seen.paths >= 5000);
-    assert_true(seen.gap > 0 && seen.gap < 1e-5);
+    assert_true(seen.gap < 1e-5);
+    return seen.violations;
 }
 
+/* Within stable steps and beyond them. */
 static void test_any_parameters(void **state)
 {
     (void)state;
-    live_all(1, false);
-}
-
-static void test_runs_that_blow_up(void **state)
-{
-    (void)state;
-    live_all(2, true);
+    const int violations = live_all(1, false) + live_all(2, true);
+    claim_figure("A1", "violations in random runs", violations, "1", CLAIM_EQUAL, 0);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_any_parameters),
-        cmocka_unit_test(test_runs_that_blow_up),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
