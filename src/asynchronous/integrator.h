@@ -104,7 +104,8 @@ typedef struct asynchronous_closest { double c[4], n[3], distance; } asynchronou
 
 enum { ASYNCHRONOUS_AXES = 13, ASYNCHRONOUS_COMBINATIONS = 15 };
 
-typedef struct asynchronous_kdop { double lo[ASYNCHRONOUS_AXES], hi[ASYNCHRONOUS_AXES]; } asynchronous_kdop;
+/* Both ends of an interval side by side: whether two k-DOPs are apart is mostly asked along one direction. */
+typedef struct asynchronous_kdop { struct { double lo, hi; } along[ASYNCHRONOUS_AXES]; } asynchronous_kdop;
 
 /* An element that meets others, and the nodes and edges of which it is the one owner. */
 typedef struct asynchronous_leaf {
