@@ -108,10 +108,8 @@ cipc_status asynchronous_tree_create(cipc_asynchronous *a, cipc_error *error)
     asynchronous_broad *b = &a->broad;
     const size_t leaves = (size_t)b->leaf_count;
     sorted_leaf *sorted = cipc_alloc(leaves, sizeof *sorted);
-    if (!b->tree) {
-        b->tree = cipc_alloc(2 * leaves, sizeof *b->tree);
-        b->leaf_place = cipc_alloc(leaves, sizeof *b->leaf_place);
-    }
+    if (!b->tree) b->tree = cipc_alloc(2 * leaves, sizeof *b->tree);
+    if (!b->leaf_place) b->leaf_place = cipc_alloc(leaves, sizeof *b->leaf_place);
     const bool good = sorted && b->tree && b->leaf_place;
     b->tree_count = 0;
     for (int i = 0; good && i < b->leaf_count; i++) sorted[i] = (sorted_leaf){0, i};
