@@ -162,7 +162,7 @@ static const asynchronous_leaf *leaf_of(const asynchronous_broad *b, int node) {
 static double extent(const asynchronous_kdop *dop)
 {
     double sum = 0;
-    for (int k = 0; k < 3; k++) sum += dop->hi[k] - dop->lo[k];
+    for (int k = 0; k < 3; k++) sum += dop->along[k].hi - dop->along[k].lo;
     return sum;
 }
 
@@ -223,7 +223,7 @@ void asynchronous_separation_start(cipc_asynchronous *a)
 
 /* ---- Changes -------------------------------------------------------------------------------------------------------------------------------------- */
 
-static bool is_apart(const asynchronous_kdop *p, const asynchronous_kdop *q, int axis) { return p->hi[axis] < q->lo[axis] || q->hi[axis] < p->lo[axis]; }
+static bool is_apart(const asynchronous_kdop *p, const asynchronous_kdop *q, int axis) { return p->along[axis].hi < q->along[axis].lo || q->along[axis].hi < p->along[axis].lo; }
 
 static void look_at_entry(cipc_asynchronous *a, int number)
 {
@@ -265,12 +265,12 @@ static bool grow_to_hold(asynchronous_kdop *dop, const asynchronous_kdop *inner)
 {
     bool grown = false;
     for (int k = 0; k < ASYNCHRONOUS_AXES; k++) {
-        if (inner->lo[k] < dop->lo[k]) {
-            dop->lo[k] = inner->lo[k];
+        if (inner->along[k].lo < dop->along[k].lo) {
+            dop->along[k].lo = inner->along[k].lo;
             grown = true;
         }
-        if (inner->hi[k] > dop->hi[k]) {
-            dop->hi[k] = inner->hi[k];
+        if (inner->along[k].hi > dop->along[k].hi) {
+            dop->along[k].hi = inner->along[k].hi;
             grown = true;
         }
     }

@@ -149,7 +149,7 @@ static double slope(const double *x, const double *y, int count)
 }
 
 /* Layers grow like v^(4/7), since V ~ d^(-14) and n ~ d^(-4). Ticks grow like v^(2/7): n layers tick at the rate n^(5/2) ~ v^(10/7), but only for the time ~ d/v ~ v^(-8/7) around the turning.
- * (SPEC T-A10 takes eta(1)/v for that time and comes to 3/7; its own counts, which go with ours at gamma = 0.1, have idle ticks among them.) Certificates and idle ticks: some for each layer. */
+ * (SPEC T-A10 takes eta(1)/v for that time and comes to 3/7; its own counts must have idle ticks among them.) Certificates and idle ticks: some for each layer. */
 static void test_growth_with_speed(void **state)
 {
     (void)state;

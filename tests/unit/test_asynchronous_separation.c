@@ -61,7 +61,7 @@ static int walk(const cipc_asynchronous *a, cover *c)
             entries++;
             cover_below(b, e->node[0], e->node[1], c);
             const asynchronous_kdop *p = &b->tree[e->node[0]].dop, *q = &b->tree[e->node[1]].dop;
-            if (e->axis >= 0) assert_true(p->hi[e->axis] < q->lo[e->axis] || q->hi[e->axis] < p->lo[e->axis]);
+            if (e->axis >= 0) assert_true(p->along[e->axis].hi < q->along[e->axis].lo || q->along[e->axis].hi < p->along[e->axis].lo);
             else assert_true(b->tree[e->node[0]].leaf >= 0 && b->tree[e->node[1]].leaf >= 0 && e->overlap >= 0);
         }
     }
@@ -96,7 +96,7 @@ static void assert_tree_holds(const cipc_asynchronous *a)
         if (b->tree[i].leaf >= 0) asynchronous_leaf_dop(a, b->tree[i].leaf, &dop);
         assert_memory_equal(&dop, &b->tree[i].dop, sizeof dop);
         const int parent = b->tree[i].parent;
-        for (int k = 0; k < ASYNCHRONOUS_AXES && parent >= 0; k++) assert_true(dop.lo[k] >= b->tree[parent].dop.lo[k] && dop.hi[k] <= b->tree[parent].dop.hi[k]);
+        for (int k = 0; k < ASYNCHRONOUS_AXES && parent >= 0; k++) assert_true(dop.along[k].lo >= b->tree[parent].dop.along[k].lo && dop.along[k].hi <= b->tree[parent].dop.along[k].hi);
     }
 }
 

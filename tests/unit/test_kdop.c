@@ -72,7 +72,7 @@ static void test_leaves_hold_their_balls(void **state)
                 lo = fmin(lo, shadow_of(a, leaf->nodes[i])[axis] - a->balls[leaf->nodes[i]].radius - half);
                 hi = fmax(hi, shadow_of(a, leaf->nodes[i])[axis] + a->balls[leaf->nodes[i]].radius + half);
             }
-            assert_true(dop.lo[axis] <= lo && dop.lo[axis] >= lo - 1e-8 && dop.hi[axis] >= hi && dop.hi[axis] <= hi + 1e-8);
+            assert_true(dop.along[axis].lo <= lo && dop.along[axis].lo >= lo - 1e-8 && dop.along[axis].hi >= hi && dop.along[axis].hi <= hi + 1e-8);
         }
     }
     asynchronous_scene_free(&s);
@@ -95,7 +95,7 @@ static void test_disjoint_is_out_of_reach(void **state)
                 asynchronous_leaf_dop(a, q, &dops[1]);
                 const int axis = asynchronous_kdop_axis(&dops[0], &dops[1]);
                 if (axis < 0) continue;
-                assert_true(dops[0].hi[axis] < dops[1].lo[axis] || dops[1].hi[axis] < dops[0].lo[axis]);
+                assert_true(dops[0].along[axis].hi < dops[1].along[axis].lo || dops[1].along[axis].hi < dops[0].along[axis].lo);
                 apart++;
                 for (int i = 0; i < ASYNCHRONOUS_COMBINATIONS; i++) {
                     asynchronous_combination c;
@@ -123,7 +123,7 @@ static void test_disjoint_is_out_of_reach(void **state)
 
 static void assert_inside(const asynchronous_kdop *inner, const asynchronous_kdop *outer)
 {
-    for (int k = 0; k < ASYNCHRONOUS_AXES; k++) assert_true(inner->lo[k] >= outer->lo[k] && inner->hi[k] <= outer->hi[k]);
+    for (int k = 0; k < ASYNCHRONOUS_AXES; k++) assert_true(inner->along[k].lo >= outer->along[k].lo && inner->along[k].hi <= outer->along[k].hi);
 }
 
 static int depth_below(const asynchronous_broad *b, int node)
