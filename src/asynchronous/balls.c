@@ -15,14 +15,17 @@ static const double ball_spare = 1e-6;
 
 static double certified_radius(const asynchronous_ball *ball) { return ball->radius * (1 - ball_spare); }
 
-/* When the node leaves: |q - c + s v| = r for the later s. */
+/* When the node leaves, at most a frame from now: |q - c + s v| = r for the later s, by the form of the root that does not cancel. */
 static double exit_time(const cipc_asynchronous *a, const asynchronous_ball *ball, const double x[3], const double v[3])
 {
     double from[3];
     v3_sub(from, x, ball->center);
-    const double r = certified_radius(ball), v2 = v3_norm2(v), b = v3_dot(from, v), room = fmax(r * r - v3_norm2(from), 0);
-    if (!(v2 > 0)) return INFINITY;
-    return a->now + fmin((sqrt(b * b + v2 * room) - b) / v2 * (1 - ball_spare), a->options.frame);
+    const double r = certified_radius(ball), distance = v3_norm(from), speed = v3_norm(v), frame = a->options.frame;
+    if (!(speed > 0)) return INFINITY;
+    if (speed * frame <= r - distance) return a->now + frame;
+    const double along = v3_dot(from, v) / speed, room = fmax((r - distance) * (r + distance), 0), root = sqrt(along * along + room);
+    const double way = along > 0 ? room / (root + along) : root - along;
+    return a->now + fmin(way / speed * (1 - ball_spare), frame);
 }
 
 static void set_deadline(cipc_asynchronous *a, int node, const double x[3])

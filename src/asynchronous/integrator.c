@@ -323,6 +323,15 @@ static bool is_time_for_lists(const cipc_asynchronous *a, int next)
     return a->broad.stale && !a->status && (next < 0 || asynchronous_queue_time(&a->queue, next) > a->now);
 }
 
+/* Between two instants, so that what is due in one is done, and the state can be taken up there; in one that does not end, after as many again. */
+static bool has_stalled(cipc_asynchronous *a, int next)
+{
+    const long events = count_events(a), limit = a->options.event_limit;
+    if (events <= limit || (events - limit <= limit && asynchronous_queue_time(&a->queue, next) <= a->now)) return false;
+    asynchronous_fail(a, CIPC_E_NO_PROGRESS, "stalled: more than %ld events in this step", limit);
+    return true;
+}
+
 static void run_until(cipc_asynchronous *a, double end)
 {
     while (!a->status) {
@@ -335,12 +344,10 @@ static void run_until(cipc_asynchronous *a, double end)
             asynchronous_separation_start(a);
             next = asynchronous_queue_next(&a->queue);
         }
-        if (a->status || next < 0 || asynchronous_queue_time(&a->queue, next) > end) break;
+        if (a->status || next < 0 || asynchronous_queue_time(&a->queue, next) > end || has_stalled(a, next)) break;
         a->now = asynchronous_queue_time(&a->queue, next);
         a->timed = timing(a, a->queue.events[next]);
         execute(a, a->queue.events[next]);
-        if (a->event_count % 1024 == 0 && count_events(a) > a->options.event_limit)
-            asynchronous_fail(a, CIPC_E_NO_PROGRESS, "stalled: more than %ld events in this step", a->options.event_limit);
     }
 }
 
