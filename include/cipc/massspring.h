@@ -1,0 +1,112 @@
+/* cipc/massspring.h - mass-spring cloth with Dahl friction (SPEC B; docs/theory/massspring.md): springs on equilateral triangles, a bound on their deformation, friction laws with
+ * memory, collision with bodies given by formulas, semi-implicit Euler. Parts of the source are lost; what is a reconstruction is marked [R]. Floor 5.
+ * This method does not guarantee that nothing intersects. */
+#ifndef CIPC_MASSSPRING_H
+#define CIPC_MASSSPRING_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include "cipc/base.h"
+#include "cipc/model.h"
+
+/* ---- Friction laws (SPEC B.3, B.4) ---------------------------------------------------------------------------------------------------------- */
+
+typedef enum cipc_friction_law {
+    CIPC_LAW_COULOMB = 0,          /* Fc sgn v; at v = 0 what is asked for, up to Fs */
+    CIPC_LAW_DAHL,                 /* dz/dt = v - sigma0 |v| z / Fc, F = sigma0 z */
+    CIPC_LAW_BIDIRECTIONAL,        /* R1 [R]: Fc replaced by h(|v|) = Fs for |v| <= dv, Fc beyond; F = sigma0 z + sigma1 dz/dt */
+    CIPC_LAW_BIDIRECTIONAL_SMOOTH, /* R1s [R]: h = Fc + (Fs - Fc) exp(-(v/dv)^2) */
+    CIPC_LAW_CLAMPED,              /* R2 [R]: dz/dt = v, but 0 where |z| >= h/sigma0 and z v > 0 */
+    CIPC_LAW_COUNT
+} cipc_friction_law;
+const char *cipc_friction_law_name(cipc_friction_law law); /* "coulomb", "dahl", "bidirectional", "bidirectional-smooth", "clamped" */
+
+typedef struct cipc_friction_force {
+    cipc_friction_law law;
+    double sigma0;                 /* N/m: stiffness before sliding; not of Coulomb */
+    double sigma1;                 /* N s/m: differential coefficient; limited so that the law stays passive: min(sigma1, 4 h/|v|) */
+    double coulomb, breakaway;     /* Fc <= Fs, N */
+    double band;                   /* dv, m/s: of static friction */
+} cipc_friction_force;
+
+/* One step of dt at constant relative velocity v, exact in z (unconditionally stable). z: internal state, m, changed in place. Returns F, N, which resists: what acts on the body is -F.
+ * F is sigma0 z' + sigma1 (z' - z)/dt with z' after the step. */
+double cipc_friction_step(const cipc_friction_force *force, double v, double dt, double *z);
+/* h(|v|), N. */
+double cipc_friction_level(const cipc_friction_force *force, double speed);
+/* In the contact plane of unit normal n: z is first carried into the plane (z - n (n.z), its length kept), v is the relative velocity, of which the tangential part counts. f[3]: resists. */
+void cipc_friction_step_plane(const cipc_friction_force *force, const double normal[3], const double v[3], double dt, double z[3], double f[3]);
+
+/* ---- Springs (SPEC B.1) ------------------------------------------------------------------------------------------------------------------------ */
+
+typedef enum cipc_spring_form {
+    CIPC_SPRING_LINEAR = 0,        /* k (|x| - d) along the spring */
+    CIPC_SPRING_TENSION,           /* the same in tension, nothing in compression (Choi and Ko's type 1) [L] */
+    CIPC_SPRING_BUCKLING           /* Choi and Ko's type 2: buckles at once [L] */
+} cipc_spring_form;
+
+typedef struct cipc_spring {
+    cipc_spring_form form;
+    double length;                 /* d, m */
+    double stiffness;              /* k_s, N/m */
+    double damping;                /* c_s, N s/m */
+    double bending;                /* k_b, N m^2: of the buckling form */
+} cipc_spring;
+
+/* Signed force along the spring at distance r > 0, N: positive pulls the ends together; without damping. */
+double cipc_spring_tension(const cipc_spring *spring, double r);
+/* Force on the first end, x = x0, x1 and v = v0, v1 (6 numbers each): tension and damping; that on the second is its opposite. */
+void cipc_spring_force(const cipc_spring *spring, const double x[6], const double v[6], double f[3]);
+/* (sqrt(3)/2) E t: a sheet of equilateral triangles then has Young's modulus E, Poisson's ratio 1/3 [L]. */
+double cipc_spring_stiffness_of_sheet(double young, double thickness);
+/* Largest stable step of semi-implicit Euler, s: 2 zeta-corrected limit with the greatest sum of stiffness and damping over the mass of any node (Gershgorin). */
+double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2], int count, const double *inverse_mass, int node_count);
+
+/* ---- Deformation coefficient (SPEC B.2) ---------------------------------------------------------------------------------------------------------- */
+
+typedef enum cipc_deformation_reading {
+    CIPC_DEFORMATION_PROJECT = 0,  /* [R]: the ends are moved until B = Bmax (Provot) */
+    CIPC_DEFORMATION_REST_LENGTH   /* the literal reading: the rest length is changed; caps the force, a kind of plasticity */
+} cipc_deformation_reading;
+
+/* max over the springs of B = ||x| - d| / d. */
+double cipc_deformation_greatest(const cipc_spring *springs, const int (*ends)[2], int count, const double *x);
+/* Gauss-Seidel sweeps over the springs with B > Bmax until all are within Bmax (1 + tolerance), at most `sweeps`; positions in proportion to inverse masses (0: held), velocities by
+ * displacement / dt (dt 0: left alone). Linear momentum of what is free is unchanged. Returns the number of sweeps; *greatest (may be NULL): B afterwards. */
+int cipc_deformation_project(const cipc_spring *springs, const int (*ends)[2], int count, double bound, double tolerance, int sweeps, const double *inverse_mass, double dt, double *x,
+                             double *v, double *greatest);
+/* The literal reading: lengths of springs with B > Bmax become |x| / (1 +- Bmax). Returns how many. */
+int cipc_deformation_adjust(cipc_spring *springs, const int (*ends)[2], int count, double bound, const double *x);
+
+/* ---- Bodies given by formulas, and bisection (SPEC B.6) ------------------------------------------------------------------------------------------- */
+
+typedef enum cipc_collider_kind { CIPC_COLLIDER_PLANE = 0, CIPC_COLLIDER_SPHERE, CIPC_COLLIDER_BOX, CIPC_COLLIDER_DISC, CIPC_COLLIDER_CAPSULE } cipc_collider_kind;
+
+typedef struct cipc_collider {
+    cipc_collider_kind kind;
+    double center[3];              /* a point of the plane; of sphere, box, disc; first end of a capsule */
+    double axis[3];                /* outward unit normal of a plane; unit axis of a disc; second end of a capsule */
+    double half[3];                /* box: half its extents along x, y, z; disc: radius, half its height; sphere: radius; capsule: radii at both ends */
+    double friction;               /* mu */
+} cipc_collider;
+
+/* Signed distance, m, negative inside, and the outward unit normal at the nearest point of the surface (normal may be NULL). */
+double cipc_collider_distance(const cipc_collider *collider, const double x[3], double normal[3]);
+
+typedef enum cipc_bisection_method { CIPC_BISECTION_PLAIN = 0, CIPC_BISECTION_IMPROVED /* [R]: interpolated, Illinois rule */ } cipc_bisection_method;
+typedef struct cipc_bisection_result {
+    bool hit;                      /* the way from x to x + d leads inside */
+    double t;                      /* in [0, 1]: where it is outside by less than the threshold */
+    double distance;               /* there, m: 0 <= distance < threshold */
+    int iterations;                /* evaluations of the distance inside the way */
+} cipc_bisection_result;
+/* x is outside (distance >= 0; below the threshold: t = 0). threshold > 0, m. */
+cipc_bisection_result cipc_bisection(cipc_bisection_method method, const cipc_collider *collider, const double x[3], const double d[3], double threshold);
+
+/* Repulsion [R]: k (threshold - distance)_+ n for spheres and capsules, k threshold n while distance < threshold for tables and planes, N; only while the velocity is not separating. */
+void cipc_collider_repulsion(const cipc_collider *collider, double stiffness, double threshold, const double x[3], const double v[3], double f[3]);
+
+/* Wind on a triangle [R]: q A (n.w) n with w the wind minus the mean velocity of the corners; a third of it on each, f[3]: on one corner. */
+void cipc_wind_force(double q, const double wind[3], const double x[9], const double v[9], double f[3]);
+
+#endif
