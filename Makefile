@@ -97,11 +97,12 @@ verify: ## the functions of the solver against exact and MPFR arithmetic: a larg
 
 VALIDATION_PAGE   ?= docs/validation.md
 VALIDATION_IMAGES ?= docs/images
-VALIDATION_TESTS  := plane rods shells volumes hertz locking splitting stack
+VALIDATION_TESTS  := $(addprefix tests/scenes/test_,plane rods shells volumes hertz locking splitting stack) \
+    $(addprefix tests/asynchronous/test_,impact collision resting events energy friction damping)
 validation: ## physics against closed forms: run their tests, write the table and the plots of docs/validation.md
-	$(SUBMAKE) all $(VALIDATION_TESTS:%=$(BUILD)/tests/scenes/test_%)
+	$(SUBMAKE) all $(VALIDATION_TESTS:%=$(BUILD)/%)
 	@rm -f $(BUILD)/validation.tsv
-	@for t in $(VALIDATION_TESTS); do CIPC_VALIDATION=$(BUILD)/validation.tsv $(BUILD)/tests/scenes/test_$$t >/dev/null 2>$(BUILD)/validation.log || { cat $(BUILD)/validation.log; exit 1; }; done
+	@for t in $(VALIDATION_TESTS); do CIPC_VALIDATION=$(BUILD)/validation.tsv $(BUILD)/$$t >/dev/null 2>$(BUILD)/validation.log || { cat $(BUILD)/validation.log; exit 1; }; done
 	@ci/validation $(BUILD)/validation.tsv $(VALIDATION_PAGE) $(VALIDATION_IMAGES)
 
 SIZE ?= ci

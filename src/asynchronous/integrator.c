@@ -13,8 +13,8 @@ static cipc_status check_options(const cipc_asynchronous_options *o, cipc_error 
         {"frame", o->frame, o->frame > 0},
         {"thickness", o->thickness, o->thickness > 0},
         {"stiffness", o->stiffness, o->stiffness >= 0},
-        {"layer_factor", o->layer_factor, o->layer_factor > 0},
-        {"element_factor", o->element_factor, o->element_factor > 0},
+        {"layer_factor", o->layer_factor, o->layer_factor > 0 && o->layer_factor <= 1},
+        {"element_factor", o->element_factor, o->element_factor > 0 && o->element_factor <= 1},
         {"gravity_step", o->gravity_step, o->gravity_step >= 0},
         {"script_step", o->script_step, o->script_step >= 0},
         {"restitution", o->restitution, o->restitution >= 0 && o->restitution <= 1},
@@ -149,6 +149,7 @@ void cipc_asynchronous_set_monitor(cipc_asynchronous *a, cipc_paths_callback *ca
 {
     a->monitor = callback;
     a->monitor_context = context;
+    a->loaded = false; /* windows begin where a state is taken up */
 }
 
 /* ---- Taking up a state ---------------------------------------------------------------------------------------------------------------------- */
@@ -311,12 +312,22 @@ static bool is_time_for_certificates(const cipc_asynchronous *a, int next)
     return a->dirty_count > 0 && (next < 0 || asynchronous_queue_time(&a->queue, next) > a->now || a->queue.events[next].rank <= ASYNCHRONOUS_RANK_SLAB);
 }
 
+/* A list made afresh makes its pairs anew, whose layers then tick at the first time after this instant: when all that ticks in it has ticked. */
+static bool is_time_for_lists(const cipc_asynchronous *a, int next)
+{
+    return a->broad.stale && !a->status && (next < 0 || asynchronous_queue_time(&a->queue, next) > a->now);
+}
+
 static void run_until(cipc_asynchronous *a, double end)
 {
     while (!a->status) {
         int next = asynchronous_queue_next(&a->queue);
         if (is_time_for_certificates(a, next)) {
             look_at_certificates(a);
+            next = asynchronous_queue_next(&a->queue);
+        }
+        if (is_time_for_lists(a, next)) {
+            asynchronous_separation_start(a);
             next = asynchronous_queue_next(&a->queue);
         }
         if (a->status || next < 0 || asynchronous_queue_time(&a->queue, next) > end) break;
@@ -359,7 +370,9 @@ cipc_status cipc_asynchronous_step(cipc_asynchronous *a, cipc_state *state, cipc
 {
     const double begin = asynchronous_seconds(), end = (state->step + 1) * a->options.frame;
     asynchronous_report_begin(a);
-    cipc_status status = is_as_left(a, state) ? CIPC_OK : take_up(a, state, error);
+    cipc_status status = CIPC_OK;
+    if (!(state->time < end)) status = cipc_fail(error, CIPC_E_OUT_OF_RANGE, "asynchronous", "the state is of t = %.9g s, but step %d ends at %.9g s", state->time, state->step + 1, end);
+    else if (!is_as_left(a, state)) status = take_up(a, state, error);
     *report = a->report;
     if (status) return status;
     run_until(a, end);

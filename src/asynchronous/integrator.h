@@ -1,4 +1,4 @@
-/* The working memory of the asynchronous integrator, shared by its files. Reading order: integrator.c (the loop), nodes.c (drift and kick), elements.c, external.c (forces), pair.c and
+/* The working memory of the asynchronous integrator, shared by its files. Reading order: integrator.c (the loop), nodes.c (drift and kick), elements.c, element_steps.c, element_ticks.c, external.c (forces), pair.c and
  * penalty.c (contact of two primitives), balls.c, kdop.c, separation.c (which pairs there are), windows.c (what the monitor is told), report.c. */
 #ifndef ASYNCHRONOUS_INTEGRATOR_H
 #define ASYNCHRONOUS_INTEGRATOR_H
@@ -104,7 +104,8 @@ typedef struct asynchronous_closest { double c[4], n[3], distance; } asynchronou
 
 enum { ASYNCHRONOUS_AXES = 13, ASYNCHRONOUS_COMBINATIONS = 15 };
 
-typedef struct asynchronous_kdop { double lo[ASYNCHRONOUS_AXES], hi[ASYNCHRONOUS_AXES]; } asynchronous_kdop;
+/* Both ends of an interval side by side: whether two k-DOPs are apart is mostly asked along one direction. */
+typedef struct asynchronous_kdop { struct { double lo, hi; } along[ASYNCHRONOUS_AXES]; } asynchronous_kdop;
 
 /* An element that meets others, and the nodes and edges of which it is the one owner. */
 typedef struct asynchronous_leaf {
@@ -146,6 +147,7 @@ typedef struct asynchronous_broad {
     double *shadow;             /* node_count * ASYNCHRONOUS_AXES: projections of the centres */
     asynchronous_separation *entry;
     int entry_count, entry_capacity, unused_entry, live_entries, fresh_entries;
+    bool stale;                 /* to be made afresh before time goes on */
     asynchronous_overlap *overlap;
     int overlap_count, overlap_capacity, unused_overlap;
 } asynchronous_broad;
@@ -238,7 +240,17 @@ int asynchronous_edge_of(const cipc_model *model, int node_a, int node_b);
 /* elements.c */
 cipc_status asynchronous_elements_create(cipc_asynchronous *a, cipc_error *error);
 void asynchronous_elements_free(cipc_asynchronous *a);
+static inline const cipc_body *asynchronous_body_of(const cipc_model *m, const int *nodes) { return &m->bodies[m->node_body[nodes[0]]]; }
+static inline void asynchronous_gather_rest(const cipc_model *m, const int *nodes, int count, double *rest)
+{
+    for (int i = 0; i < count; i++) v3_copy(rest + 3 * i, m->rest + 3 * nodes[i]);
+}
+
+/* element_steps.c */
+cipc_status asynchronous_clocks_create(cipc_asynchronous *a, cipc_error *error);
 void asynchronous_elements_start(cipc_asynchronous *a);
+
+/* element_ticks.c */
 void asynchronous_elements_tick(cipc_asynchronous *a, int clock);
 double asynchronous_elements_energy(const cipc_asynchronous *a, const double *x);
 

@@ -27,12 +27,12 @@ void asynchronous_leaf_dop(const cipc_asynchronous *a, int number, asynchronous_
     const asynchronous_leaf *leaf = &a->broad.leaves[number];
     const double half = 0.5 * (a->options.thickness * (1 + reach_spare) + a->model->bodies[leaf->body].offset);
     for (int k = 0; k < ASYNCHRONOUS_AXES; k++) {
-        dop->lo[k] = INFINITY;
-        dop->hi[k] = -INFINITY;
+        dop->along[k].lo = INFINITY;
+        dop->along[k].hi = -INFINITY;
         for (int i = 0; i < leaf->node_count; i++) {
             const double at = a->broad.shadow[(size_t)leaf->nodes[i] * ASYNCHRONOUS_AXES + (size_t)k], around = a->balls[leaf->nodes[i]].radius + half;
-            dop->lo[k] = min2(at - around, dop->lo[k]);
-            dop->hi[k] = max2(at + around, dop->hi[k]);
+            dop->along[k].lo = min2(at - around, dop->along[k].lo);
+            dop->along[k].hi = max2(at + around, dop->along[k].hi);
         }
     }
 }
@@ -40,7 +40,7 @@ void asynchronous_leaf_dop(const cipc_asynchronous *a, int number, asynchronous_
 int asynchronous_kdop_axis(const asynchronous_kdop *p, const asynchronous_kdop *q)
 {
     for (int k = 0; k < ASYNCHRONOUS_AXES; k++)
-        if (p->hi[k] < q->lo[k] || q->hi[k] < p->lo[k]) return k;
+        if (p->along[k].hi < q->along[k].lo || q->along[k].hi < p->along[k].lo) return k;
     return -1;
 }
 
@@ -108,10 +108,8 @@ cipc_status asynchronous_tree_create(cipc_asynchronous *a, cipc_error *error)
     asynchronous_broad *b = &a->broad;
     const size_t leaves = (size_t)b->leaf_count;
     sorted_leaf *sorted = cipc_alloc(leaves, sizeof *sorted);
-    if (!b->tree) {
-        b->tree = cipc_alloc(2 * leaves, sizeof *b->tree);
-        b->leaf_place = cipc_alloc(leaves, sizeof *b->leaf_place);
-    }
+    if (!b->tree) b->tree = cipc_alloc(2 * leaves, sizeof *b->tree);
+    if (!b->leaf_place) b->leaf_place = cipc_alloc(leaves, sizeof *b->leaf_place);
     const bool good = sorted && b->tree && b->leaf_place;
     b->tree_count = 0;
     for (int i = 0; good && i < b->leaf_count; i++) sorted[i] = (sorted_leaf){0, i};
@@ -131,8 +129,8 @@ void asynchronous_tree_fit(cipc_asynchronous *a)
         }
         const asynchronous_kdop *p = &b->tree[node->child[0]].dop, *q = &b->tree[node->child[1]].dop;
         for (int k = 0; k < ASYNCHRONOUS_AXES; k++) {
-            node->dop.lo[k] = min2(p->lo[k], q->lo[k]);
-            node->dop.hi[k] = max2(p->hi[k], q->hi[k]);
+            node->dop.along[k].lo = min2(p->along[k].lo, q->along[k].lo);
+            node->dop.along[k].hi = max2(p->along[k].hi, q->along[k].hi);
         }
     }
 }

@@ -104,24 +104,41 @@ static void activate_always(cipc_asynchronous *a, int number)
     for (int l = 0; l < a->options.always_layers && !a->status; l++) asynchronous_pair_activate(a, number);
 }
 
+/* Take a pair out of the lists, and of those of the first `places` of its nodes; its number is free again. */
+static void let_go(cipc_asynchronous *a, int number, int places)
+{
+    asynchronous_pairs *pairs = &a->pairs;
+    const asynchronous_pair *pair = &pairs->pair[number];
+    if (pair->event >= 0) asynchronous_queue_drop(&a->queue, pair->event);
+    for (int i = 0; i < places; i++) remove_incidence(pairs, number, i);
+    const int last = pairs->live[--pairs->live_count];
+    pairs->live[pair->index_in_live] = last;
+    pairs->pair[last].index_in_live = pair->index_in_live;
+    pairs->unused[pairs->unused_count++] = number;
+}
+
+static int fail_to_create(cipc_asynchronous *a)
+{
+    asynchronous_fail(a, CIPC_E_OUT_OF_MEMORY, "no memory for another pair near contact");
+    return -1;
+}
+
 int asynchronous_pair_create(cipc_asynchronous *a, cipc_pair_kind kind, const int *nodes, uint64_t order)
 {
     asynchronous_pairs *pairs = &a->pairs;
     const int number = take_number(pairs);
-    bool good = number >= 0;
-    if (good) {
-        asynchronous_pair *pair = &pairs->pair[number];
-        *pair = (asynchronous_pair){0};
-        describe(a, pair, kind, nodes);
-        pair->event = asynchronous_queue_add(&a->queue, ASYNCHRONOUS_RANK_SLAB, order, number);
-        good = pair->event >= 0;
-        pair->index_in_live = pairs->live_count;
-        pairs->live[pairs->live_count++] = number;
-    }
-    for (int i = 0; good && i < cipc_pair_nodes(kind); i++) good = add_incidence(pairs, number, i);
-    if (!good) {
-        asynchronous_fail(a, CIPC_E_OUT_OF_MEMORY, "no memory for another pair near contact");
-        return -1;
+    if (number < 0) return fail_to_create(a);
+    asynchronous_pair *pair = &pairs->pair[number];
+    *pair = (asynchronous_pair){0};
+    describe(a, pair, kind, nodes);
+    pair->event = asynchronous_queue_add(&a->queue, ASYNCHRONOUS_RANK_SLAB, order, number);
+    pair->index_in_live = pairs->live_count;
+    pairs->live[pairs->live_count++] = number;
+    int places = 0;
+    while (pair->event >= 0 && places < pair->node_count && add_incidence(pairs, number, places)) places++;
+    if (places < pair->node_count) {
+        let_go(a, number, places);
+        return fail_to_create(a);
     }
     if (a->options.always_layers > 0) activate_always(a, number);
     else asynchronous_pair_certify(a, number);
@@ -130,16 +147,10 @@ int asynchronous_pair_create(cipc_asynchronous *a, cipc_pair_kind kind, const in
 
 void asynchronous_pair_destroy(cipc_asynchronous *a, int number)
 {
-    asynchronous_pairs *pairs = &a->pairs;
-    asynchronous_pair *pair = &pairs->pair[number];
+    asynchronous_pair *pair = &a->pairs.pair[number];
     while (pair->layers > 0) asynchronous_pair_deactivate(a, number);
     cipc_free(pair->layer);
-    asynchronous_queue_drop(&a->queue, pair->event);
-    for (int i = 0; i < pair->node_count; i++) remove_incidence(pairs, number, i);
-    const int last = pairs->live[--pairs->live_count];
-    pairs->live[pair->index_in_live] = last;
-    pairs->pair[last].index_in_live = pair->index_in_live;
-    pairs->unused[pairs->unused_count++] = number;
+    let_go(a, number, pair->node_count);
 }
 
 void asynchronous_pairs_free(cipc_asynchronous *a)

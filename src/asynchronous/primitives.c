@@ -104,8 +104,19 @@ static void set(asynchronous_combination *c, cipc_pair_kind kind, const int *fir
     c->order = asynchronous_pair_order(kind, first_number, second_number);
 }
 
-/* A node that p owns against the element q. Nodes of rods meet segments as ends of their own segments, so only particles are asked. */
-static bool node_and_element(const asynchronous_leaf *p, int i, const asynchronous_leaf *q, bool first, asynchronous_combination *c)
+/* Does a segment at the node meet the segment q? Then the two segments keep the node away as well. Beside a joint none does. */
+static bool is_spoken_for(const cipc_asynchronous *a, int node, const asynchronous_leaf *q)
+{
+    const asynchronous_broad *b = &a->broad;
+    for (int i = b->incident_first[node]; i < b->incident_first[node + 1]; i++) {
+        const asynchronous_leaf *own = &b->leaves[b->incident[i]];
+        if (own->segment >= 0 && cipc_model_meet(a->model, own->nodes, 2, q->nodes, 2)) return true;
+    }
+    return false;
+}
+
+/* A node that p owns against the element q. Of nodes against segments those of particles are asked, and those of rods that no pair of segments speaks for. */
+static bool node_and_element(const cipc_asynchronous *a, const asynchronous_leaf *p, int i, const asynchronous_leaf *q, bool first, asynchronous_combination *c)
 {
     if (i >= p->owned_node_count) return false;
     const int node = p->owned_nodes[i];
@@ -113,14 +124,15 @@ static bool node_and_element(const asynchronous_leaf *p, int i, const asynchrono
         set(c, CIPC_POINT_TRIANGLE, &node, 1, node, q->nodes, 3, q->triangle);
         return true;
     }
-    if (!is_particle(p)) return false;
     if (q->segment >= 0) {
+        if (!is_particle(p) && (p->segment < 0 || is_spoken_for(a, node, q))) return false;
         set(c, CIPC_POINT_EDGE, &node, 1, node, q->nodes, 2, q->segment);
         return true;
     }
     const int other = q->nodes[0], lower = node < other ? node : other, higher = node < other ? other : node;
-    if (first) set(c, CIPC_POINT_POINT, &lower, 1, lower, &higher, 1, higher);
-    return first;
+    if (!is_particle(p) || !first) return false;
+    set(c, CIPC_POINT_POINT, &lower, 1, lower, &higher, 1, higher);
+    return true;
 }
 
 static bool edge_and_edge(const cipc_model *m, const asynchronous_leaf *p, int i, const asynchronous_leaf *q, int j, asynchronous_combination *c)
@@ -142,8 +154,8 @@ static bool is_all_fixed(const cipc_model *m, const int *nodes, int count)
 bool asynchronous_combination_of(const cipc_asynchronous *a, const asynchronous_leaf *p, const asynchronous_leaf *q, int number, asynchronous_combination *c)
 {
     bool found = false;
-    if (number < 3) found = node_and_element(p, number, q, true, c);
-    else if (number < 6) found = node_and_element(q, number - 3, p, false, c);
+    if (number < 3) found = node_and_element(a, p, number, q, true, c);
+    else if (number < 6) found = node_and_element(a, q, number - 3, p, false, c);
     else found = edge_and_edge(a->model, p, (number - 6) / 3, q, (number - 6) % 3, c);
     if (!found) return false;
     const int count = cipc_pair_nodes(c->kind), first = cipc_pair_first_nodes(c->kind);

@@ -23,6 +23,7 @@ void asynchronous_report_begin(cipc_asynchronous *a)
     for (int i = 0; i < 4; i++) a->report.deepest.nodes[i] = -1;
     find_deepest(a);
     memset(a->kicks, 0, (size_t)a->model->node_count * sizeof *a->kicks);
+    for (int i = 0; i < a->model->node_count; i++) v3_copy(a->before + 3 * i, a->nodes[i].v); /* what happened in earlier steps is not known of a state that is taken up */
 }
 
 static int compare_numbers(const void *p, const void *q)
@@ -42,7 +43,7 @@ static void find_vertex_steps(const cipc_asynchronous *a, cipc_asynchronous_repo
     for (int q = 0; q < CIPC_QUANTILES; q++) r->vertex_steps[q] = count > 0 ? steps[(int)lround(cipc_quantiles[q] * (count - 1))] : a->options.frame;
 }
 
-/* In the middle of the last kick, if there was one just now or before: leapfrog's velocity where its energy is nearly constant (SPEC A.2). */
+/* In the middle of the last kick of this step, if there was one: leapfrog's velocity where its energy is nearly constant (SPEC A.2). */
 static double kinetic_energy(const cipc_asynchronous *a)
 {
     double sum = 0;

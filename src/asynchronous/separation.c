@@ -1,6 +1,6 @@
 /* The separation list (Weller and Zachmann 2006; SPEC A.10): pairs of tree nodes whose k-DOPs are disjoint, and pairs of leaves whose are not, which together cover every pair of
- * elements. When a k-DOP changes only the entries that it is in are looked at; what no longer is disjoint is taken apart. The list is made afresh when it has become twice as long as
- * it was when fresh, which also lets go of what has moved apart. */
+ * elements. When a k-DOP changes only the entries that it is in are looked at; what no longer is disjoint is taken apart. When it has become twice as long as it was when fresh it is
+ * stale and made afresh, which also lets go of what has moved apart. */
 #include "asynchronous/integrator.h"
 
 enum { LIST_GROWTH = 2, LIST_SPARE = 256 };
@@ -162,7 +162,7 @@ static const asynchronous_leaf *leaf_of(const asynchronous_broad *b, int node) {
 static double extent(const asynchronous_kdop *dop)
 {
     double sum = 0;
-    for (int k = 0; k < 3; k++) sum += dop->hi[k] - dop->lo[k];
+    for (int k = 0; k < 3; k++) sum += dop->along[k].hi - dop->along[k].lo;
     return sum;
 }
 
@@ -218,11 +218,12 @@ void asynchronous_separation_start(cipc_asynchronous *a)
     asynchronous_tree_fit(a);
     if (b->tree_count > 0) cover_inside(a, 0);
     b->fresh_entries = b->live_entries;
+    b->stale = false;
 }
 
 /* ---- Changes -------------------------------------------------------------------------------------------------------------------------------------- */
 
-static bool is_apart(const asynchronous_kdop *p, const asynchronous_kdop *q, int axis) { return p->hi[axis] < q->lo[axis] || q->hi[axis] < p->lo[axis]; }
+static bool is_apart(const asynchronous_kdop *p, const asynchronous_kdop *q, int axis) { return p->along[axis].hi < q->along[axis].lo || q->along[axis].hi < p->along[axis].lo; }
 
 static void look_at_entry(cipc_asynchronous *a, int number)
 {
@@ -264,12 +265,12 @@ static bool grow_to_hold(asynchronous_kdop *dop, const asynchronous_kdop *inner)
 {
     bool grown = false;
     for (int k = 0; k < ASYNCHRONOUS_AXES; k++) {
-        if (inner->lo[k] < dop->lo[k]) {
-            dop->lo[k] = inner->lo[k];
+        if (inner->along[k].lo < dop->along[k].lo) {
+            dop->along[k].lo = inner->along[k].lo;
             grown = true;
         }
-        if (inner->hi[k] > dop->hi[k]) {
-            dop->hi[k] = inner->hi[k];
+        if (inner->along[k].hi > dop->along[k].hi) {
+            dop->along[k].hi = inner->along[k].hi;
             grown = true;
         }
     }
@@ -292,7 +293,7 @@ void asynchronous_separation_update(cipc_asynchronous *a, int node, double trave
     asynchronous_broad *b = &a->broad;
     for (int i = b->incident_first[node]; i < b->incident_first[node + 1]; i++) b->leaves[b->incident[i]].travel += travel;
     for (int i = b->incident_first[node]; i < b->incident_first[node + 1] && !a->status; i++) update_leaf(a, b->incident[i]);
-    if (b->live_entries > LIST_GROWTH * b->fresh_entries + LIST_SPARE && !a->status) asynchronous_separation_start(a);
+    b->stale = b->live_entries > LIST_GROWTH * b->fresh_entries + LIST_SPARE;
 }
 
 void asynchronous_broad_free(cipc_asynchronous *a)

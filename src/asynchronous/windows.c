@@ -9,11 +9,11 @@ enum { BREAKS_PER_NODE = 32, BREAKS_AT_LEAST = 4096 };
 cipc_status asynchronous_windows_start(cipc_asynchronous *a, cipc_error *error)
 {
     const size_t nodes = (size_t)a->model->node_count;
-    if (a->monitor && !a->breaks) {
-        a->break_capacity = BREAKS_AT_LEAST + (long)(BREAKS_PER_NODE * nodes);
-        a->breaks = cipc_alloc((size_t)a->break_capacity, sizeof *a->breaks);
-        a->window_from = cipc_alloc(3 * nodes, sizeof *a->window_from);
-        a->window_to = cipc_alloc(3 * nodes, sizeof *a->window_to);
+    if (a->monitor) {
+        const long capacity = BREAKS_AT_LEAST + (long)(BREAKS_PER_NODE * nodes);
+        if (!a->breaks && (a->breaks = cipc_alloc((size_t)capacity, sizeof *a->breaks))) a->break_capacity = capacity;
+        if (!a->window_from) a->window_from = cipc_alloc(3 * nodes, sizeof *a->window_from);
+        if (!a->window_to) a->window_to = cipc_alloc(3 * nodes, sizeof *a->window_to);
         if (!a->breaks || !a->window_from || !a->window_to) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "asynchronous", "no memory for the paths of %zu nodes", nodes);
     }
     a->window_begin = a->now;

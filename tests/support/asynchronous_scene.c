@@ -10,7 +10,7 @@
 
 void asynchronous_scene_init(asynchronous_scene *s)
 {
-    *s = (asynchronous_scene){.options = cipc_asynchronous_options_default(), .min_gap = INFINITY};
+    *s = (asynchronous_scene){.options = cipc_asynchronous_options_default(), .min_gap = INFINITY, .seen_gap = INFINITY};
     sheet_scene_init(&s->sheet);
 }
 
@@ -54,12 +54,53 @@ void asynchronous_scene_build(asynchronous_scene *s)
     asynchronous_scene_start(s);
 }
 
+/* Finite, no intersection, no gap lost: whether the step ended well or stalled. */
+static cipc_status look_at_frame(asynchronous_scene *s)
+{
+    const double *x = s->sheet.state->position;
+    cipc_invariant_report seen;
+    cipc_invariant_report_init(&seen);
+    cipc_status status = cipc_monitor_finite(s->sheet.model, x, &s->error);
+    if (!status) status = cipc_monitor_finite(s->sheet.model, s->sheet.state->velocity, &s->error);
+    if (!status) status = cipc_monitor_intersection(s->sheet.monitor, x, &seen, &s->error);
+    if (!status) status = cipc_monitor_gap(s->sheet.monitor, x, &seen, &s->error);
+    s->seen_gap = fmin(s->seen_gap, seen.min_gap);
+    return status;
+}
+
+static cipc_status look_at_paths(void *context, const cipc_paths *paths, cipc_error *error)
+{
+    asynchronous_scene *s = context;
+    cipc_invariant_report seen;
+    cipc_invariant_report_init(&seen);
+    const cipc_status status = cipc_monitor_paths(s->sheet.monitor, paths, &seen, error);
+    s->paths_checked += seen.paths_checked;
+    return status;
+}
+
+void asynchronous_watch(asynchronous_scene *s)
+{
+    cipc_invariant_options options = cipc_invariant_options_default();
+    options.reach = s->options.thickness;
+    cipc_monitor_destroy(s->sheet.monitor);
+    s->sheet.monitor = NULL;
+    assert_int_equal(cipc_monitor_create(&s->sheet.monitor, s->sheet.model, &options, &s->error), CIPC_OK);
+    assert_int_equal(look_at_frame(s), CIPC_OK);
+    cipc_asynchronous_set_monitor(s->integrator, look_at_paths, s);
+}
+
 cipc_status asynchronous_try_step(asynchronous_scene *s)
 {
-    const cipc_status status = cipc_asynchronous_step(s->integrator, s->sheet.state, &s->report, &s->error);
+    cipc_status status = cipc_asynchronous_step(s->integrator, s->sheet.state, &s->report, &s->error);
     for (int k = 0; k < CIPC_EVENT_COUNT; k++) s->events[k] += s->report.events[k];
     if (s->report.layers > s->layers) s->layers = s->report.layers;
     s->min_gap = fmin(s->min_gap, s->report.min_gap);
+    if (s->sheet.monitor && (!status || status == CIPC_E_NO_PROGRESS)) {
+        const cipc_error stall = s->error;
+        const cipc_status seen = look_at_frame(s);
+        if (seen) status = seen;
+        else s->error = stall;
+    }
     return status;
 }
 

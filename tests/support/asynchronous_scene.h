@@ -13,6 +13,8 @@ typedef struct asynchronous_scene {
     long events[CIPC_EVENT_COUNT];     /* of all steps so far */
     int layers;                        /* deepest so far */
     double min_gap;                    /* least at a tick of a layer so far, m */
+    long paths_checked;                /* of asynchronous_watch: pairs whose paths were looked at */
+    double seen_gap;                   /* and the least d - xi at a frame, m; INFINITY: none within eta(1) */
     cipc_error error;
 } asynchronous_scene;
 
@@ -32,7 +34,7 @@ void asynchronous_scene_build(asynchronous_scene *scene);
 cipc_status asynchronous_try_step(asynchronous_scene *scene);
 void asynchronous_steps(asynchronous_scene *scene, int count);
 
-/* From now on the exact monitors look at every frame and at all paths; a violation ends the step with its status. */
+/* From now on the exact monitors look at every frame (M8, M1, M2) and at all paths (M5); a violation ends the step with its status. */
 void asynchronous_watch(asynchronous_scene *scene);
 
 #endif

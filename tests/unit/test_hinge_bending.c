@@ -146,6 +146,19 @@ static void test_flat_hinge_with_curved_rest_shape_feels_its_moment(void **state
     assert_relative(g[11], 0.5, ROUNDINGS); /* height 2 */
 }
 
+/* dV = 2 k w (theta - thetabar) dtheta, component by component; and along the fold, which turns at one radian a radian, the angle gains one. */
+static void test_gradient_of_the_angle(void **state)
+{
+    (void)state;
+    const cipc_hinge_bending params = {.stiffness = 0.7, .rest_angle = 0.2};
+    double x[SIZE], angle[SIZE], force[SIZE];
+    fold(1.1, x);
+    cipc_hinge_angle_gradient(x, angle);
+    cipc_hinge_bending_gradient(x, &params, force);
+    for (int i = 0; i < SIZE; i++) assert_true(fabs(force[i] - 2 * 0.7 * (1.1 - 0.2) * angle[i]) <= ROUNDINGS);
+    assert_relative(angle[10] * 2 * sin(1.1) - angle[11] * 2 * cos(1.1), 1, ROUNDINGS);
+}
+
 static void test_hessian_of_the_flat_hinge(void **state)
 {
     (void)state;
@@ -229,6 +242,7 @@ int main(void)
         cmocka_unit_test(test_angle_difference_is_not_wrapped),
         cmocka_unit_test(test_force_of_a_fold),
         cmocka_unit_test(test_flat_hinge_with_curved_rest_shape_feels_its_moment),
+        cmocka_unit_test(test_gradient_of_the_angle),
         cmocka_unit_test(test_hessian_of_the_flat_hinge),
         cmocka_unit_test(test_collapsed_triangles_are_infeasible),
         cmocka_unit_test(test_cylinder_on_an_equilateral_mesh),
