@@ -2,10 +2,11 @@
 
 Evidence is what ci/claims gathers:
     tests      program -> {"stale": why or "", "exit_status", "results": {test: passed|failed|skipped}, "figures": [as tests/support/claim.h writes them], "ended"}
-    runs       name -> {"stale", "exit_status", "summary": of cipc run, "ended"}
+    runs       name -> {"stale", "exit_status", "summary": of cipc run, "ended"; "ends": as what the scene's runs are to end, if not "OK"}
     campaigns  name -> {"stale", "exit_status", "report": of cipc verify, "ended"}
     missing pieces are missing keys.
     size       of the scenes; a figure with "sizes" is asked for at these only
+    methods    name of a run -> its method, if not "c-ipc"
     all_runs, selected: names of the runs that were to be made; true if those are not all there are. Then claims that need others, or tests that skip for want of them, are open.
 A claim has passed only if every piece of evidence it names is there, is of these very programs and inputs, and passed, and every figure is there, once, and lies as it should to its
 threshold. What is not shown by anything is open, whatever else has passed.
@@ -120,15 +121,26 @@ def take(figure, measured, reasons, where):
     return {**figure, "measured": measured}
 
 
+def ended_wrong(ends, exit_status, summary):
+    """Why a run did not end as it is to; "": it did. A scene that is to stall (`ends`, of the catalogue) has to: neither may it come to its end, nor say that it had."""
+    if ends == "OK":
+        return "" if exit_status == 0 else f"exit status {exit_status}"
+    if exit_status != 1:
+        return f"exit status {exit_status}, but it is to end as {ends}, with 1"
+    status, taken, asked = summary.get("status"), summary.get("steps_taken"), summary.get("steps_asked")
+    if status != ends or summary.get("exit_status") != 1 or summary.get("converged") is not False or taken is None or asked is None or not 0 < taken < asked:
+        return f"{status} after {taken} of {asked} steps, but it is to end as {ends} on the way"
+    return ""
+
+
 def problems(piece, name):
     """Why a piece of evidence does not count."""
     if piece is None:
         return [f"{name}: has not run"]
     if piece["stale"]:
         return [f"{name}: is of another time: {piece['stale']}"]
-    if piece["exit_status"] != 0:
-        return [f"{name}: exit status {piece['exit_status']}"]
-    return []
+    wrong = ended_wrong(piece.get("ends", "OK"), piece["exit_status"], piece.get("summary") or {})
+    return [f"{name}: {wrong}"] if wrong else []
 
 
 def same_threshold(figure, record):
@@ -174,15 +186,16 @@ def violated(summary, monitor):
 
 
 def judge_run(item, name, piece, reasons):
-    """A run must have come to its end, and the monitors must have looked and found nothing."""
+    """A run must have ended as it is to, and the monitors must have looked and found nothing."""
     wrong = problems(piece, f"run {name}")
     summary = piece.get("summary") if piece else None
     if piece and not summary:
         wrong.append(f"run {name}: has left no summary")
     if summary:
-        if summary.get("status") != "OK":
+        stalls = piece.get("ends", "OK") != "OK"
+        if not stalls and summary.get("status") != "OK":
             wrong.append(f"run {name}: {summary.get('status')}: {at(summary, 'error.what')}")
-        if summary.get("steps_taken") != summary.get("steps_asked") or summary.get("converged") is not True:
+        if not stalls and (summary.get("steps_taken") != summary.get("steps_asked") or summary.get("converged") is not True):
             wrong.append(f"run {name}: {summary.get('steps_taken')} of {summary.get('steps_asked')} steps, converged: {summary.get('converged')}")
         monitors = [item["monitor"]] if isinstance(item["monitor"], str) else item["monitor"]
         for monitor in monitors:
@@ -209,7 +222,7 @@ def of_runs(figure, summaries):
 
 
 def judge_runs(item, evidence, reasons):
-    names = evidence["all_runs"] if item["runs"] == "all" else item["runs"]
+    names = evidence["runs_of_paper"] if item["runs"] == "all" else item["runs"]
     if not names:
         reasons.append("no run at all")
     pieces = [evidence["runs"].get(name) for name in names]
@@ -288,8 +301,14 @@ def judge_claim(claim, evidence):
     return {**row, "verdict": "failed" if row["reasons"] else "passed"}
 
 
+def of_method(method, evidence):
+    """The names of the runs that are made by a paper's method: what "all" means there. None: the paper's is not here."""
+    return [name for name in evidence["all_runs"] if evidence.get("methods", {}).get(name, "c-ipc") == method]
+
+
 def judge(definitions, evidence):
-    return [{"name": paper["name"], "short": paper["short"], "source": paper["source"], "claims": [judge_claim(claim, evidence) for claim in paper["claims"]]}
+    return [{"name": paper["name"], "short": paper["short"], "source": paper["source"],
+             "claims": [judge_claim(claim, {**evidence, "runs_of_paper": of_method(paper.get("method"), evidence)}) for claim in paper["claims"]]}
             for paper in definitions["papers"]]
 
 

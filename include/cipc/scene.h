@@ -145,7 +145,10 @@ cipc_status cipc_scene_load(cipc_scene **scene, const char *path, int override_c
 void cipc_scene_destroy(cipc_scene *scene);
 
 /* A scene known by the catalogue: name, what it shows, source (paper, figure, SCENES row), its file. */
-typedef struct cipc_scene_entry { const char *name, *title, *source, *file; } cipc_scene_entry;
+typedef struct cipc_scene_entry {
+    const char *name, *title, *source, *file;
+    cipc_status ends; /* as what its run ends: CIPC_OK; or what the scene is there to show, and then a run that comes to its end has not shown it */
+} cipc_scene_entry;
 const cipc_scene_entry *cipc_scene_catalogue(int *count);
 
 /* What a scene costs at a size, as measured once (docs/scenes.md says where): nodes, steps, seconds on one thread with all monitors, peak memory. */

@@ -50,6 +50,7 @@ static void print_table(const cipc_scene_entry *entries, int count)
     for (int i = 0; i < count; i++) {
         const cipc_scene_entry *e = &entries[i];
         printf("%-*s  %s (%s; %s)\n", name, e->name, e->title, e->source, e->file);
+        if (e->ends != CIPC_OK) printf("    ends as %s (exit status %d): that is what it is to show\n", cipc_status_name(e->ends), cipc_status_exit(e->ends));
         for (int k = 0; k < SIZES; k++) {
             const cipc_scene_cost *cost = cipc_scene_cost_of(e->name, sizes[k]);
             if (cost != NULL) print_cost(cost);
@@ -65,7 +66,7 @@ static json_t *cost_object(const cipc_scene_cost *cost)
 
 static json_t *entry_object(const cipc_scene_entry *e)
 {
-    json_t *object = json_pack("{s:s, s:s, s:s, s:s}", "name", e->name, "title", e->title, "source", e->source, "file", e->file);
+    json_t *object = json_pack("{s:s, s:s, s:s, s:s, s:s}", "name", e->name, "title", e->title, "source", e->source, "file", e->file, "ends", cipc_status_name(e->ends));
     json_t *all = json_object();
     for (int k = 0; k < SIZES; k++) {
         const cipc_scene_cost *cost = cipc_scene_cost_of(e->name, sizes[k]);
@@ -96,7 +97,7 @@ int cipc_command_scenes(int argc, char **argv)
 {
     static const struct argp_option options[] = {{"json", 'j', NULL, 0, "As JSON", 0}, {0}};
     static const cipc_arguments arguments = {"cipc scenes", options, NULL,
-                                             "List the scenes of the catalogue: name, title, source and file, and for each size nodes, steps, time and memory as measured once on one thread with all monitors ('>': at least so long, extrapolated from the first steps).", take};
+                                             "List the scenes of the catalogue: name, title, source and file, and for each size nodes, steps, time and memory as measured once on one thread with all monitors ('>': at least so long, extrapolated from the first steps); and as what a run ends, if not well.", take};
     cipc_error error;
     bool as_json = false, answered = false;
     if (cipc_parse_arguments(&arguments, argc, argv, &as_json, &answered, &error) != CIPC_OK) {

@@ -40,7 +40,12 @@ golden golden_bands_or_fail(const scene_variant *variant)
 void golden_assert_monitored(const scene_outcome *o)
 {
     assert_true(o->steps > 0 && o->points >= o->steps);
-    assert_true(o->energy_checks > 0 && o->energy_checks <= o->points);
+    if (o->method == CIPC_METHOD_ASYNCHRONOUS) {
+        assert_true(o->points == o->steps && o->windows >= o->steps);
+        assert_true(o->momentum_checks == 0 || o->momentum_checks == o->steps);
+    } else {
+        assert_true(o->energy_checks > 0 && o->energy_checks <= o->points);
+    }
     assert_true(o->min_gap > 0);
     if (o->stretch_limit > 0) {
         assert_true(o->max_stretch < o->stretch_limit && o->max_stretch_ratio < 1);
@@ -49,6 +54,13 @@ void golden_assert_monitored(const scene_outcome *o)
 
 void golden_print_figures(const char *name, const scene_outcome *o)
 {
+    if (o->method == CIPC_METHOD_ASYNCHRONOUS) {
+        print_message("%s: %d steps, %d nodes, %ld frames and %ld windows checked, %.0f impulses of layers, at most %d contacts, layer %d, min gap %.3g m, largest stretch %.7f, "
+                      "exact gap checks %ld, paths %ld, of which exact %ld\n",
+                      name, o->steps, o->node_count, o->points, o->windows, o->last.impulses[0], o->max_contacts, o->max_layers, o->min_gap, o->max_stretch, o->exact_gap_checks,
+                      o->paths_checked, o->exact_path_checks);
+        return;
+    }
     print_message("%s: %d steps, %d nodes, %ld points checked, %ld with energies, %.0f Newton iterations, at most %d contacts, min gap %.3g m, "
                   "largest stretch %.7f, largest (sigma - 1)/(s - 1) %.4f, exact gap checks %ld, exact strain checks %ld, paths %ld, of which exact %ld\n",
                   name, o->steps, o->node_count, o->points, o->energy_checks, o->last.newton_iterations[0], o->max_contacts, o->min_gap,

@@ -32,7 +32,7 @@ static void visit_moduli(json_t *root, visitor *visit, void *context)
 {
     static const char *const places[][3] = {
         {"membrane", "membrane", "young"},           {"membrane", "membrane", "moduli"}, {"bending", "bending", "young"},
-        {"strain limit", "strain_limit", "stiffness"}, {"young", NULL, "young"},
+        {"strain limit", "strain_limit", "stiffness"}, {"young", NULL, "young"}, {"damping", "damping", "stiffness"},
     };
     size_t i;
     json_t *body;
@@ -45,12 +45,37 @@ static void visit_moduli(json_t *root, visitor *visit, void *context)
     }
 }
 
+static void visit_loads(json_t *root, visitor *visit, void *context)
+{
+    size_t i;
+    json_t *load;
+    json_array_foreach(json_object_get(root, "loads"), i, load)
+    {
+        visit(context, "load", json_string_value(json_object_get(load, "body")), load, "force");
+    }
+}
+
+/* What contact is made of. */
+static void visit_contact(json_t *root, visitor *visit, void *context)
+{
+    static const char *const keys[] = {"thickness", "stiffness", "restitution"};
+    const char *method = json_string_value(json_object_get(root, "method"));
+    if (method == NULL || strcmp(method, "asynchronous") != 0) {
+        visit(context, "dhat", NULL, json_object_get(root, "contact"), "dhat");
+        return;
+    }
+    for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++) {
+        visit(context, keys[k], NULL, json_object_get(root, "asynchronous"), keys[k]);
+    }
+    visit_loads(root, visit, context);
+}
+
 static void visit_all(json_t *root, visitor *visit, void *context)
 {
     size_t i;
     json_t *stitch;
     visit(context, "gravity", NULL, root, "gravity");
-    visit(context, "dhat", NULL, json_object_get(root, "contact"), "dhat");
+    visit_contact(root, visit, context);
     visit_friction(root, visit, context);
     visit_moduli(root, visit, context);
     json_array_foreach(json_object_get(root, "stitches"), i, stitch)
@@ -112,6 +137,13 @@ typedef struct planting {
     double factor;
 } planting;
 
+/* Restitution cannot be above 1: there the fault is the other way. */
+static double faulty(const planting *p, double value)
+{
+    const double wrong = p->factor * value;
+    return strcmp(p->fault->kind, "restitution") == 0 && wrong > 1 ? value / p->factor : wrong;
+}
+
 static void plant(void *context, const char *kind, const char *whose, json_t *owner, const char *key)
 {
     (void)whose;
@@ -122,10 +154,10 @@ static void plant(void *context, const char *kind, const char *whose, json_t *ow
     }
     if (json_is_array(coefficient)) {
         for (size_t i = 0; i < json_array_size(coefficient); i++) {
-            json_array_set_new(coefficient, i, json_real(p->factor * json_number_value(json_array_get(coefficient, i))));
+            json_array_set_new(coefficient, i, json_real(faulty(p, json_number_value(json_array_get(coefficient, i)))));
         }
     } else {
-        json_object_set_new(owner, key, json_real(p->factor * p->fault->value));
+        json_object_set_new(owner, key, json_real(faulty(p, p->fault->value)));
     }
 }
 

@@ -1,6 +1,7 @@
 /* Faults of 1 %, derived from a scene as resolved: the physics that golden bands have to notice. One fault changes one coefficient wherever
  * it stands: gravity; the barrier's range dhat; each distinct coefficient of friction; of the bodies that are not fixed each distinct modulus
- * of membrane, bending, strain limit, rods and volumes; each distinct stiffness of stitches. */
+ * of membrane, bending, strain limit, rods and volumes, and each distinct time of stiffness damping; each distinct stiffness of stitches. Of the
+ * method asynchronous not dhat, but eta(1), r(1) if it is given, restitution, and each distinct load. */
 #ifndef SUPPORT_SCENE_FAULT_H
 #define SUPPORT_SCENE_FAULT_H
 

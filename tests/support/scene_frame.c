@@ -131,18 +131,34 @@ static double largest_segment_stretch(const cipc_model *m, const double *x)
     return largest;
 }
 
-scene_frame scene_frame_of(const scene_step *s)
+/* What does not depend on the method. */
+static void measure(const scene_step *s, scene_frame *f)
 {
-    const cipc_step_report *r = s->report;
+    f->min_gap[0] = fmin(s->seen->min_gap, s->reach);
+    f->largest_stretch[0] = s->seen->max_stretch;
+    f->segment_stretch[0] = largest_segment_stretch(s->model, s->x);
+    measure_nodes(s, f);
+}
+
+scene_frame scene_frame_of(const scene_step *s, const cipc_step_report *r)
+{
     const cipc_energy_terms *terms = &r->incremental;
     scene_frame f = {
         .kinetic = {r->kinetic}, .gravitational = {r->gravitational}, .elastic = {r->elastic}, .membrane = {terms->membrane},
         .bending = {terms->bending}, .strain_limit = {terms->strain_limit}, .stretching = {terms->stretching}, .volume = {terms->volume},
         .stitches = {terms->stitches}, .damping = {terms->damping}, .barrier = {terms->barrier}, .friction = {terms->friction},
-        .min_gap = {fmin(s->seen->min_gap, s->reach)}, .largest_stretch = {s->seen->max_stretch},
-        .segment_stretch = {largest_segment_stretch(s->model, s->x)}, .contacts = {r->contacts},
-        .newton_iterations = {s->iterations_before + r->newton_iterations},
+        .contacts = {r->contacts}, .newton_iterations = {s->before->newton_iterations[0] + r->newton_iterations},
     };
-    measure_nodes(s, &f);
+    measure(s, &f);
+    return f;
+}
+
+scene_frame scene_frame_of_asynchronous(const scene_step *s, const cipc_asynchronous_report *r)
+{
+    scene_frame f = {
+        .kinetic = {r->kinetic}, .gravitational = {r->gravitational}, .elastic = {r->elastic}, .contacts = {(double)s->seen->pairs_checked},
+        .contact = {r->contact}, .layers = {r->layers}, .impulses = {s->before->impulses[0] + (double)r->events[CIPC_EVENT_PENALTY]},
+    };
+    measure(s, &f);
     return f;
 }

@@ -1,11 +1,9 @@
-/* The loop of src/cli (simulation.c, steps.c) without its files: load, check the start, step, look at every accepted point. */
-#include "support/scene_run.h"
+/* The loop of src/cli (simulation.c, steps.c) without its files: load, check the start, step; what the two methods do is in scene_run_implicit.c and
+ * scene_run_asynchronous.c. */
+#include "support/scene_running.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
-
-#include "cipc/invariant.h"
 
 void scene_outcome_free(scene_outcome *outcome)
 {
@@ -14,34 +12,10 @@ void scene_outcome_free(scene_outcome *outcome)
     memset(outcome, 0, sizeof *outcome);
 }
 
-/* A run under way. */
-typedef struct run {
-    cipc_scene *scene;
-    cipc_monitor *monitor;
-    cipc_stepper *stepper;
-    scene_outcome *outcome;
-    long points_of_step;
-    cipc_invariant_report seen; /* at the last accepted point */
-    bool stopped;         /* the watcher has seen enough */
-    double *previous;     /* the point accepted before: where the next path begins */
-} run;
-
-/* ---- The monitors ----------------------------------------------------------------------------------------------------------- */
-
-static cipc_status at_point(const cipc_accepted_point *point, cipc_error *error)
-{
-    char place[sizeof error->place], remedy[sizeof error->remedy];
-    snprintf(place, sizeof place, "step %d, iteration %d, %.400s", point->step + 1, point->iteration + 1, error->place);
-    snprintf(remedy, sizeof remedy, "%s", error->remedy);
-    cipc_fail(error, error->status, place, "%s", error->what);
-    return cipc_fail_remedy(error, "%s", remedy);
-}
-
-static void take_in(run *r, const cipc_invariant_report *report)
+void scene_take_in(scene_running *r, const cipc_invariant_report *report)
 {
     scene_outcome *o = r->outcome;
     o->points++;
-    r->points_of_step++;
     r->seen = *report;
     o->min_gap = fmin(o->min_gap, report->min_gap);
     o->max_stretch = fmax(o->max_stretch, report->max_stretch);
@@ -50,31 +24,6 @@ static void take_in(run *r, const cipc_invariant_report *report)
     o->exact_strain_checks += report->exact_strain_checks;
     o->paths_checked += report->paths_checked;
     o->exact_path_checks += report->exact_path_checks;
-}
-
-/* M6, then M8, M1 to M4, and M5 (docs/monitors.md). */
-static cipc_status look(void *context, const cipc_accepted_point *point, cipc_error *error)
-{
-    run *r = context;
-    cipc_invariant_report report;
-    cipc_invariant_report_init(&report);
-    cipc_status status = CIPC_OK;
-    if (point->energy_valid) {
-        r->outcome->energy_checks++;
-        status = cipc_monitor_energy(point->energy_before, point->energy_after, point->energy_noise, error);
-    }
-    if (status == CIPC_OK) {
-        status = cipc_monitor_check(r->monitor, point->x, &report, error);
-    }
-    if (status == CIPC_OK) {
-        status = cipc_monitor_swept(r->monitor, r->previous, point->x, &report, error);
-        memcpy(r->previous, point->x, 3 * (size_t)r->scene->model->node_count * sizeof *point->x);
-    }
-    if (status != CIPC_OK) {
-        return at_point(point, error);
-    }
-    take_in(r, &report);
-    return CIPC_OK;
 }
 
 /* ---- The start -------------------------------------------------------------------------------------------------------------- */
@@ -87,7 +36,7 @@ static double draw(unsigned long long *state)
 }
 
 /* Choose the probes, and displace the nodes that are free during the first step. */
-static cipc_status prepare_nodes(run *r, double jitter, unsigned long seed, cipc_error *error)
+static cipc_status prepare_nodes(scene_running *r, double jitter, unsigned long seed, cipc_error *error)
 {
     const cipc_model *m = r->scene->model;
     cipc_state *state = r->scene->state;
@@ -110,7 +59,7 @@ static cipc_status prepare_nodes(run *r, double jitter, unsigned long seed, cipc
     return status;
 }
 
-static cipc_status open_run(run *r, const scene_request *request, cipc_error *error)
+static cipc_status open_run(scene_running *r, const scene_request *request, cipc_error *error)
 {
     int count = 0;
     while (request->overrides[count] != NULL) {
@@ -134,51 +83,23 @@ static cipc_status open_run(run *r, const scene_request *request, cipc_error *er
     if (status == CIPC_OK) {
         status = cipc_monitor_check(r->monitor, scene->state->position, NULL, error);
     }
-    r->previous = cipc_alloc(3 * (size_t)scene->model->node_count, sizeof *r->previous);
-    if (status == CIPC_OK && r->previous == NULL) {
-        status = cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "scene_run", "no memory for the start of a path");
-    }
     if (status == CIPC_OK) {
-        status = cipc_stepper_create(&r->stepper, scene->model, &scene->options, error);
+        r->method = scene->method == CIPC_METHOD_ASYNCHRONOUS ? &scene_asynchronous : &scene_implicit;
+        status = r->method->begin(r, error);
     }
     return status;
 }
 
-/* ---- The steps -------------------------------------------------------------------------------------------------------------- */
+/* ---- The steps, and the end --------------------------------------------------------------------------------------------------- */
 
-/* What a good step left. */
-static void record_step(run *r, const cipc_step_report *report, const scene_request *request)
+static cipc_status take_step(scene_running *r, const scene_request *request, cipc_error *error)
 {
     scene_outcome *o = r->outcome;
-    const cipc_scene *scene = r->scene;
-    const scene_step step = {scene->model, scene->state->position, o->probe, report, &r->seen, scene->monitor_reach, o->last.newton_iterations[0]};
-    o->last = scene_frame_of(&step);
-    o->steps = scene->state->step;
-    o->max_step_stretch = fmax(o->max_step_stretch, r->seen.max_stretch);
-    o->max_contacts = report->max_contacts > o->max_contacts ? report->max_contacts : o->max_contacts;
-    o->max_friction = fmax(o->max_friction, report->incremental.friction);
-    r->stopped = request->watch != NULL && !request->watch(request->context, o->steps, &o->last);
-}
-
-static cipc_status take_step(run *r, const scene_request *request, cipc_error *error)
-{
-    cipc_step_report report;
-    cipc_state *state = r->scene->state;
-    r->points_of_step = 0;
-    memcpy(r->previous, state->position, 3 * (size_t)r->scene->model->node_count * sizeof *r->previous);
-    cipc_status status = cipc_step(r->stepper, state, &report, error);
+    const cipc_status status = r->method->take(r, error);
     if (status == CIPC_OK) {
-        status = cipc_monitor_residual(report.residual, r->scene->options.newton_tolerance, error);
-    }
-    if (status == CIPC_OK && r->points_of_step == 0) { /* a step without any accepted point has to leave a good state too */
-        const cipc_accepted_point end = {.x = state->position, .step = state->step - 1, .iteration = report.newton_iterations - 1};
-        status = look(r, &end, error);
-    }
-    if (status == CIPC_OK && !report.converged) {
-        status = cipc_fail(error, CIPC_E_NOT_CONVERGED, "scene_run", "step %d ended well, yet is not reported as converged", state->step);
-    }
-    if (status == CIPC_OK) {
-        record_step(r, &report, request);
+        o->steps = r->scene->state->step;
+        o->max_step_stretch = fmax(o->max_step_stretch, r->seen.max_stretch);
+        r->stopped = request->watch != NULL && !request->watch(request->context, o->steps, &o->last);
     }
     return status;
 }
@@ -199,11 +120,12 @@ static void centre_of_mass(const cipc_model *model, const double *x, double cent
     }
 }
 
-static void begin_outcome(const run *r)
+static void begin_outcome(const scene_running *r)
 {
     scene_outcome *o = r->outcome;
     const cipc_model *m = r->scene->model;
     o->min_gap = INFINITY;
+    o->method = r->scene->method;
     o->time_step = r->scene->options.time_step;
     o->tolerance = r->scene->options.newton_tolerance;
     for (int b = 0; b < m->body_count; b++) {
@@ -212,7 +134,7 @@ static void begin_outcome(const run *r)
     }
 }
 
-static cipc_status finish_outcome(const run *r, const double start[3], cipc_error *error)
+static cipc_status finish_outcome(const scene_running *r, const double start[3], cipc_error *error)
 {
     scene_outcome *o = r->outcome;
     const cipc_model *m = r->scene->model;
@@ -234,16 +156,25 @@ static cipc_status finish_outcome(const run *r, const double start[3], cipc_erro
     return CIPC_OK;
 }
 
+static void close_run(scene_running *r)
+{
+    if (r->method != NULL) {
+        r->method->end(r);
+    }
+    cipc_monitor_destroy(r->monitor);
+    cipc_free(r->previous);
+    cipc_scene_destroy(r->scene);
+}
+
 cipc_status scene_run(const scene_request *request, scene_outcome *outcome, cipc_error *error)
 {
     memset(outcome, 0, sizeof *outcome);
-    run r = {.outcome = outcome};
+    scene_running r = {.outcome = outcome};
     double start[3] = {0};
     cipc_status status = open_run(&r, request, error);
     if (status == CIPC_OK) {
         begin_outcome(&r);
         centre_of_mass(r.scene->model, r.scene->state->position, start, &outcome->moving_mass);
-        cipc_stepper_set_monitor(r.stepper, look, &r);
     }
     while (status == CIPC_OK && !r.stopped && r.scene->state->step < r.scene->steps) {
         status = take_step(&r, request, error);
@@ -251,9 +182,6 @@ cipc_status scene_run(const scene_request *request, scene_outcome *outcome, cipc
     if (status == CIPC_OK) {
         status = finish_outcome(&r, start, error);
     }
-    cipc_stepper_destroy(r.stepper);
-    cipc_monitor_destroy(r.monitor);
-    cipc_free(r.previous);
-    cipc_scene_destroy(r.scene);
+    close_run(&r);
     return status;
 }

@@ -1,5 +1,6 @@
 /* A scene of tests/scenes run through the library as `cipc run` does it: every accepted point goes to the monitors, every step has to
- * converge. What comes out is what the golden bands (golden.h) and the claims are about. */
+ * converge; of the method asynchronous every frame and all paths in between go to the monitors. What comes out is what the golden bands
+ * (golden.h) and the claims are about. */
 #ifndef SUPPORT_SCENE_RUN_H
 #define SUPPORT_SCENE_RUN_H
 
@@ -24,13 +25,15 @@ typedef struct scene_outcome {
     scene_frame last;                  /* after the last step */
     int probe[SCENE_PROBES];           /* the probes' nodes */
     int steps;                         /* taken, all converged */
-    long points, energy_checks;        /* accepted points that the monitors looked at; those with comparable energies */
+    cipc_method method;
+    long points, energy_checks;        /* accepted points (frames of the method asynchronous) that the monitors looked at; those with comparable energies */
+    long windows, momentum_checks;     /* asynchronous: windows of paths that were looked at; steps whose momentum had to be kept */
     double min_gap;                    /* m: d - xi, smallest at any accepted point; INFINITY: nothing came within reach */
     double max_stretch, max_stretch_ratio; /* at any accepted point */
     double max_step_stretch;           /* largest principal stretch after any step */
     long exact_gap_checks, exact_strain_checks;
     long paths_checked, exact_path_checks; /* M5 */
-    int max_contacts;
+    int max_contacts, max_layers;      /* layers: of the method asynchronous, deepest */
     double max_friction;               /* J: largest friction term of a step's incremental potential; > 0: friction was active */
     double time_step, tolerance, moving_mass; /* s, m/s, kg */
     double travel;                     /* m, of the centre of mass */
@@ -41,8 +44,8 @@ typedef struct scene_outcome {
 } scene_outcome;
 void scene_outcome_free(scene_outcome *outcome);
 
-/* Run it to its last step. CIPC_OK: every step converged and every invariant held at every accepted point. Anything else: what
- * cipc_step or a monitor said, with the place prefixed by step and iteration (both from 1). *outcome is to be freed in either case. */
+/* Run it to its last step. CIPC_OK: every step converged and every invariant held at every accepted point. Anything else: what the step
+ * or a monitor said, with the place prefixed by step and iteration (both from 1) or time. *outcome is to be freed in either case. */
 cipc_status scene_run(const scene_request *request, scene_outcome *outcome, cipc_error *error);
 
 #endif

@@ -82,12 +82,26 @@ static void test_names_are_distinct_and_name_their_file(void **state)
     }
 }
 
+/* The one that is there to stall says so, to those who run all of them. */
+static void test_one_scene_is_to_stall(void **state)
+{
+    (void)state;
+    int count;
+    const cipc_scene_entry *entries = cipc_scene_catalogue(&count);
+    for (int i = 0; i < count; i++) {
+        const bool stalls = strcmp(entries[i].name, "jammed-knot") == 0;
+        assert_int_equal(entries[i].ends, stalls ? CIPC_E_NO_PROGRESS : CIPC_OK);
+        assert_true(!stalls || strstr(entries[i].source, cipc_status_name(entries[i].ends)) != NULL);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_scenes_load_in_every_size),
         cmocka_unit_test(test_sizes_grow),
         cmocka_unit_test(test_names_are_distinct_and_name_their_file),
+        cmocka_unit_test(test_one_scene_is_to_stall),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
