@@ -109,4 +109,54 @@ void cipc_collider_repulsion(const cipc_collider *collider, double stiffness, do
 /* Wind on a triangle [R]: q A (n.w) n with w the wind minus the mean velocity of the corners; a third of it on each, f[3]: on one corner. */
 void cipc_wind_force(double q, const double wind[3], const double x[9], const double v[9], double f[3]);
 
+/* ---- The integrator ---------------------------------------------------------------------------------------------------------------------------------- */
+
+typedef struct cipc_massspring_options {
+    double frame;                  /* s: what one cipc_massspring_step advances */
+    double step;                   /* s: of semi-implicit Euler; 0: the longest frame / k that is stable */
+    bool refuse;                   /* a step that is too long is refused; false: it is divided */
+    cipc_spring_form structural, bending_form;
+    double bending_stiffness;      /* N/m: of the springs across edges; 0: none */
+    double buckling;               /* k_b, N m^2: of the buckling form */
+    double deformation;            /* Bmax; 0: no bound */
+    cipc_deformation_reading reading;
+    int sweeps;                    /* at most, of the projection */
+    double wind[3], wind_pressure; /* m/s; q, kg/(m^2 s): of the air */
+    cipc_bisection_method bisection;
+    double threshold;              /* m: of bisection and repulsion */
+    double repulsion;              /* N/m; 0: none */
+    cipc_friction_law law;
+    double presliding;             /* m: Fc / sigma0, the displacement before sliding, by order */
+    double breakaway;              /* Fs / Fc >= 1 */
+    double damping_ratio;          /* zeta of sigma1 = 2 zeta sqrt(sigma0 m) */
+    double band;                   /* dv, m/s */
+    double self_distance;          /* m: nodes of a cloth that no spring joins are kept so far apart; 0: cloth passes through itself */
+    double self_friction;          /* mu of cloth on itself */
+} cipc_massspring_options;
+/* frame 1/60 s, linear springs, Bmax 0.1 projected in at most 100 sweeps, improved bisection to 1 mm, repulsion 0, R1 with presliding 1e-4 m, breakaway 1.2, damping ratio 0.5,
+ * band 1e-3 m/s, no collision of cloth with itself. */
+cipc_massspring_options cipc_massspring_options_default(void);
+
+/* What one step did. */
+typedef struct cipc_massspring_report {
+    int substeps;
+    double substep;                /* s */
+    int contacts;                  /* nodes within the threshold of a body, at the end */
+    long hits, iterations;         /* ways cut by bisection, and its evaluations */
+    int self_contacts;             /* pairs at the end */
+    int sweeps;                    /* of the projection, in all */
+    double deformation;            /* B, at the end */
+    double kinetic, gravitational, elastic; /* J, at the end */
+    long reversals;                /* sign changes of tangential velocity of nodes in contact: chatter */
+} cipc_massspring_report;
+
+typedef struct cipc_massspring cipc_massspring;
+/* Shells whose material has springs are cloth; other bodies that move are refused (CIPC_E_WRONG_TYPE). colliders are copied. CIPC_E_OUT_OF_RANGE on options out of range, and on a step
+ * that is too long if it is to be refused: the error tells the longest. The model must outlive it. */
+cipc_status cipc_massspring_create(cipc_massspring **integrator, const cipc_model *model, const cipc_collider *colliders, int collider_count, const cipc_massspring_options *options,
+                                   cipc_error *error);
+void cipc_massspring_destroy(cipc_massspring *integrator);
+/* Advance the state by one frame. CIPC_E_NO_PROGRESS: a position is no longer finite. */
+cipc_status cipc_massspring_step(cipc_massspring *integrator, cipc_state *state, cipc_massspring_report *report, cipc_error *error);
+
 #endif
