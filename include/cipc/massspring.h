@@ -42,7 +42,8 @@ void cipc_friction_step_plane(const cipc_friction_force *force, const double nor
 typedef enum cipc_spring_form {
     CIPC_SPRING_LINEAR = 0,        /* k (|x| - d) along the spring */
     CIPC_SPRING_TENSION,           /* the same in tension, nothing in compression (Choi and Ko's type 1) [L] */
-    CIPC_SPRING_BUCKLING           /* Choi and Ko's type 2: buckles at once [L] */
+    CIPC_SPRING_BUCKLING           /* Choi and Ko's type 2 [L]: linear in tension; in compression a beam of stiffness k_b that buckles at once into an arc, and the linear spring
+                                    * where that pushes less: near d, where the arc would jump to -12 k_b/d^2 */
 } cipc_spring_form;
 
 typedef struct cipc_spring {
@@ -53,13 +54,17 @@ typedef struct cipc_spring {
     double bending;                /* k_b, N m^2: of the buckling form */
 } cipc_spring;
 
-/* Signed force along the spring at distance r > 0, N: positive pulls the ends together; without damping. */
+/* Signed force along the spring at distance r >= 0, N: positive pulls the ends together, negative pushes them apart; without damping. Continuous; the slope of an energy in every form.
+ * To a few roundings of its value, of r - d near d. */
 double cipc_spring_tension(const cipc_spring *spring, double r);
-/* Force on the first end, x = x0, x1 and v = v0, v1 (6 numbers each): tension and damping; that on the second is its opposite. */
+/* Force on the first end, x = x0, x1 and v = v0, v1 (6 numbers each): tension and damping; that on the second is its opposite. Damping resists both lengthening and shortening, whatever
+ * the form and its state. Ends at the same place: 0, there is no direction. */
 void cipc_spring_force(const cipc_spring *spring, const double x[6], const double v[6], double f[3]);
 /* (sqrt(3)/2) E t: a sheet of equilateral triangles then has Young's modulus E, Poisson's ratio 1/3 [L]. */
 double cipc_spring_stiffness_of_sheet(double young, double thickness);
-/* Largest stable step of semi-implicit Euler, s: 2 zeta-corrected limit with the greatest sum of stiffness and damping over the mass of any node (Gershgorin). */
+/* A step up to which semi-implicit Euler (v += h M^-1 (-K x - C v), then x += h v) is stable, s: h^2 k + 2 h c = 4, that is (2/omega) (sqrt(1 + zeta^2) - zeta), with the bounds of
+ * Gershgorin for K and C over the mass at the worst node: twice the sum of its springs' stiffness or damping over its mass, once where the other end is held (inverse mass 0). Exact for two
+ * equal masses, or one, and a spring; on the safe side otherwise. INFINITY: nothing can oscillate; 0: no memory. */
 double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2], int count, const double *inverse_mass, int node_count);
 
 /* ---- Deformation coefficient (SPEC B.2) ---------------------------------------------------------------------------------------------------------- */
@@ -71,11 +76,14 @@ typedef enum cipc_deformation_reading {
 
 /* max over the springs of B = ||x| - d| / d. */
 double cipc_deformation_greatest(const cipc_spring *springs, const int (*ends)[2], int count, const double *x);
-/* Gauss-Seidel sweeps over the springs with B > Bmax until all are within Bmax (1 + tolerance), at most `sweeps`; positions in proportion to inverse masses (0: held), velocities by
- * displacement / dt (dt 0: left alone). Linear momentum of what is free is unchanged. Returns the number of sweeps; *greatest (may be NULL): B afterwards. */
+/* Gauss-Seidel sweeps, to and fro, over the springs: those with B > Bmax are brought to B = Bmax, until all are within Bmax (1 + tolerance), at most `sweeps`. Ends move along the spring in
+ * proportion to their inverse masses (0: held, not touched), velocities change by displacement / dt (dt 0: left alone, v may be NULL). Linear momentum and centre of mass of what is free
+ * are unchanged but by springs to held nodes. A spring of no length has no direction and stays, as does one with both ends held. Returns the number of sweeps, 0 if there was nothing to do;
+ * *greatest (may be NULL): B afterwards, above Bmax (1 + tolerance) only if the sweeps were used up. Bmax = 0 asks for all springs to be rigid. */
 int cipc_deformation_project(const cipc_spring *springs, const int (*ends)[2], int count, double bound, double tolerance, int sweeps, const double *inverse_mass, double dt, double *x,
                              double *v, double *greatest);
-/* The literal reading: lengths of springs with B > Bmax become |x| / (1 +- Bmax). Returns how many. */
+/* The literal reading: lengths of springs with B > Bmax become |x| / (1 + Bmax) if stretched, |x| / (1 - Bmax) if compressed, so that B = Bmax; for good, like plasticity. The force of a
+ * linear spring is then at most k Bmax times its new length. A spring of no length keeps its own. Returns how many changed. */
 int cipc_deformation_adjust(cipc_spring *springs, const int (*ends)[2], int count, double bound, const double *x);
 
 /* ---- Bodies given by formulas, and bisection (SPEC B.6) ------------------------------------------------------------------------------------------- */
@@ -106,7 +114,8 @@ cipc_bisection_result cipc_bisection(cipc_bisection_method method, const cipc_co
 /* Repulsion [R]: k (threshold - distance)_+ n for spheres and capsules, k threshold n while distance < threshold for tables and planes, N; only while the velocity is not separating. */
 void cipc_collider_repulsion(const cipc_collider *collider, double stiffness, double threshold, const double x[3], const double v[3], double f[3]);
 
-/* Wind on a triangle [R]: q A (n.w) n with w the wind minus the mean velocity of the corners; a third of it on each, f[3]: on one corner. */
+/* Wind on a triangle [R]: q A (n.w) n with w the wind minus the mean velocity of the corners, q in N s/m^3; a third of it on each, f[3]: on one corner. Both sides are alike; a triangle of
+ * no area feels none. */
 void cipc_wind_force(double q, const double wind[3], const double x[9], const double v[9], double f[3]);
 
 /* ---- The integrator ---------------------------------------------------------------------------------------------------------------------------------- */

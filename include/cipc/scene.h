@@ -28,6 +28,9 @@ void cipc_mesh_free(cipc_mesh *mesh);
 /* Generators. All lie where docs/scene.md says: sheets in the x-z plane around the origin with normal +y.
  * grid: cells_x by cells_z squares, split along one diagonal, or alternating ("union jack" of 2x2) if alternate. */
 cipc_status cipc_mesh_grid(cipc_mesh *mesh, double size_x, double size_z, int cells_x, int cells_z, bool alternate, cipc_error *error);
+/* Equilateral triangles, all edges of length `edge`, m: rows + 1 lines of columns + 1 nodes along x, x fastest, edge sqrt(3)/2 apart in z and shifted by -edge/4 and +edge/4 in turn, so
+ * that the ends in x are ragged (straight ones would need half triangles). edge (columns + 1/2) wide in x, edge sqrt(3)/2 rows in z. */
+cipc_status cipc_mesh_equilateral(cipc_mesh *mesh, double edge, int columns, int rows, cipc_error *error);
 /* Irregular triangulation of a rectangle: about `nodes` points (boundary evenly spaced, inside jittered by a seeded generator), Delaunay by qhull. */
 cipc_status cipc_mesh_irregular(cipc_mesh *mesh, double size_x, double size_z, int nodes, unsigned long seed, cipc_error *error);
 /* Icosphere of a radius: an icosahedron split `subdivisions` times, 10 * 4^s + 2 nodes, normals outward. */

@@ -1,4 +1,4 @@
-/* Grid, irregular sheet, icosphere, shell of revolution, open cylinder, capsule, nails, panels of a garment, ribbon or file. */
+/* Grid, sheet of equilateral triangles, irregular sheet, icosphere, shell of revolution, open cylinder, capsule, nails, panels of a garment, ribbon or file. */
 #include "scene/shell.h"
 
 #include <limits.h>
@@ -21,6 +21,17 @@ static void read_grid(scene_reader *r, const scene_cursor *grid, cipc_mesh *mesh
     scene_integers(r, grid, "cells", 2, 1, SCENE_NODES_MAX, cells);
     bool alternate = scene_boolean(r, grid, "alternate", false);
     if (r->status == CIPC_OK) scene_adopt(r, grid, cipc_mesh_grid(mesh, size[0], size[1], cells[0], cells[1], alternate, &error), &error);
+}
+
+static void read_equilateral(scene_reader *r, const scene_cursor *sheet, cipc_mesh *mesh)
+{
+    static const char *const keys[] = {"edge", "cells", NULL};
+    int cells[2];
+    cipc_error error;
+    if (!scene_is_object(r, sheet, keys)) return;
+    double edge = scene_number(r, sheet, "edge", SCENE_REQUIRED_NUMBER, scene_positive);
+    scene_integers(r, sheet, "cells", 2, 1, SCENE_NODES_MAX, cells);
+    if (r->status == CIPC_OK) scene_adopt(r, sheet, cipc_mesh_equilateral(mesh, edge, cells[0], cells[1], &error), &error);
 }
 
 static void read_irregular(scene_reader *r, const scene_cursor *irregular, unsigned long seed, cipc_mesh *mesh)
@@ -165,8 +176,9 @@ static void read_ribbon(scene_reader *r, const scene_cursor *ribbon, cipc_mesh *
 
 void scene_read_shell(scene_reader *r, const scene_cursor *shell, unsigned long seed, cipc_mesh *mesh)
 {
-    enum { GRID, IRREGULAR, ICOSPHERE, REVOLUTION, CYLINDER, CAPSULE, NAILS, GORES, PLEATS, RIBBON, MESH };
-    static const char *const keys[] = {"grid", "irregular", "icosphere", "revolution", "cylinder", "capsule", "nails", "gores", "pleats", "ribbon", "mesh", NULL};
+    enum { GRID, EQUILATERAL, IRREGULAR, ICOSPHERE, REVOLUTION, CYLINDER, CAPSULE, NAILS, GORES, PLEATS, RIBBON, MESH };
+    static const char *const keys[] = {"grid",  "equilateral", "irregular", "icosphere", "revolution", "cylinder", "capsule",
+                                       "nails", "gores",       "pleats",    "ribbon",    "mesh",       NULL};
     *mesh = (cipc_mesh){0};
     if (!scene_is_object(r, shell, keys)) return;
     int way = scene_one_of(r, shell, keys);
@@ -174,6 +186,8 @@ void scene_read_shell(scene_reader *r, const scene_cursor *shell, unsigned long 
     scene_cursor member = scene_member(shell, keys[way]);
     if (way == GRID)
         read_grid(r, &member, mesh);
+    else if (way == EQUILATERAL)
+        read_equilateral(r, &member, mesh);
     else if (way == IRREGULAR)
         read_irregular(r, &member, seed, mesh);
     else if (way == ICOSPHERE)

@@ -42,6 +42,7 @@ static void test_generators(void **state)
     (void)state;
     assert_shell("{\"grid\": {\"size\": [1, 2.5], \"cells\": [2, 3]}}", 12, 12);
     assert_shell("{\"grid\": {\"size\": [1, 2], \"cells\": [2, 2], \"alternate\": true}}", 9, 8);
+    assert_shell("{\"equilateral\": {\"edge\": 0.1, \"cells\": [4, 3]}}", 20, 24);
     assert_shell("{\"irregular\": {\"size\": [1, 1], \"nodes\": 5}}", 5, 4);
     assert_shell("{\"icosphere\": {\"radius\": 1, \"subdivisions\": 1}}", 42, 80);
 }
@@ -166,6 +167,8 @@ static void test_rejections(void **state)
     assert_refused("{\"grid\": {\"size\": [1, 1], \"cells\": [1.5, 1]}}", CIPC_E_WRONG_TYPE, "t.json:1:37 grid.cells.0", "an integer");
     assert_refused("{\"grid\": {\"size\": [1], \"cells\": [1, 1]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:11 grid.size", "must have 2");
     assert_refused("{\"grid\": {\"size\": [1, 1], \"cells\": [9000, 9000]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:2 grid", "at most 10000000");
+    assert_refused("{\"equilateral\": {\"edge\": 0, \"cells\": [1, 1]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:18 equilateral.edge", "greater than 0");
+    assert_refused("{\"equilateral\": {\"edge\": 1, \"cells\": [1, 0]}}", CIPC_E_OUT_OF_RANGE, "t.json:1:42 equilateral.cells.1", "at least 1");
     assert_refused("{\"irregular\": {\"size\": [1, 1], \"nodes\": 3}}", CIPC_E_OUT_OF_RANGE, "t.json:1:32 irregular.nodes", "at least 4");
     assert_refused("{\"irregular\": {\"size\": [1, 1], \"nodes\": 9, \"seed\": -1}}", CIPC_E_OUT_OF_RANGE, "t.json:1:44 irregular.seed",
                    "at least 0");

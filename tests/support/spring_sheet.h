@@ -1,0 +1,36 @@
+/* Sheets of springs on equilateral triangles, brought to rest by a plain method of their own: for tests of springs. Anything that fails ends the test. */
+#ifndef SUPPORT_SPRING_SHEET_H
+#define SUPPORT_SPRING_SHEET_H
+
+#include "cipc/massspring.h"
+#include "cipc/scene.h"
+#include "massspring/topology.h"
+
+typedef struct spring_sheet {
+    cipc_mesh mesh;
+    cipc_model *model;
+    int node_count;
+    massspring_topology topology;
+    cipc_spring *springs;           /* topology.count, of the form, stiffness and damping given */
+    double *x, *v, *force;          /* 3 * node_count */
+    double *mass, *inverse_mass;    /* node_count; of the cloth, inverse 0: held */
+    double gravity[3];
+    double step;                    /* of spring_sheet_step, s */
+} spring_sheet;
+
+/* columns by rows cells with edge d, kg/m^2; bending springs have a part `bending` of the stiffness. At rest in the x-z plane. */
+void spring_sheet_init(spring_sheet *sheet, double d, int columns, int rows, double surface_density, const cipc_spring *spring, double bending);
+void spring_sheet_free(spring_sheet *sheet);
+
+/* Forces of springs and gravity at x, v. */
+void spring_sheet_forces(spring_sheet *sheet);
+/* One step of semi-implicit Euler. */
+void spring_sheet_step(spring_sheet *sheet);
+/* Kinetic energy, J. */
+double spring_sheet_motion(const spring_sheet *sheet);
+/* Largest force on a free node, N, at the forces last taken. */
+double spring_sheet_residual(const spring_sheet *sheet);
+/* Steps, each time the kinetic energy has passed a peak from rest anew, until no free node feels more than `residual`, N. Returns the steps taken. */
+int spring_sheet_settle(spring_sheet *sheet, double residual, int steps_max);
+
+#endif
