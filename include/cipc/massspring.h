@@ -90,6 +90,8 @@ int cipc_deformation_adjust(cipc_spring *springs, const int (*ends)[2], int coun
 
 typedef enum cipc_collider_kind { CIPC_COLLIDER_PLANE = 0, CIPC_COLLIDER_SPHERE, CIPC_COLLIDER_BOX, CIPC_COLLIDER_DISC, CIPC_COLLIDER_CAPSULE } cipc_collider_kind;
 
+/* Solid and convex. Box: a square table, its edges along the coordinate axes; disc: a round table, a cylinder about its axis; capsule: two balls and the cone that touches both, or the larger
+ * ball if the other is in it. */
 typedef struct cipc_collider {
     cipc_collider_kind kind;
     double center[3];              /* a point of the plane; of sphere, box, disc; first end of a capsule */
@@ -98,20 +100,24 @@ typedef struct cipc_collider {
     double friction;               /* mu */
 } cipc_collider;
 
-/* Signed distance, m, negative inside, and the outward unit normal at the nearest point of the surface (normal may be NULL). */
+/* Signed distance, m, negative inside, exact on both sides but for rounding, and the outward unit normal at the nearest point of the surface (normal may be NULL): the gradient of the distance.
+ * Where several points are nearest, as for the centre of a ball, it is the normal at one of them. */
 double cipc_collider_distance(const cipc_collider *collider, const double x[3], double normal[3]);
 
 typedef enum cipc_bisection_method { CIPC_BISECTION_PLAIN = 0, CIPC_BISECTION_IMPROVED /* [R]: interpolated, Illinois rule */ } cipc_bisection_method;
 typedef struct cipc_bisection_result {
-    bool hit;                      /* the way from x to x + d leads inside */
-    double t;                      /* in [0, 1]: where it is outside by less than the threshold */
-    double distance;               /* there, m: 0 <= distance < threshold */
-    int iterations;                /* evaluations of the distance inside the way */
+    bool hit;                      /* the end of the way, x + d, is inside. Only the end is looked at [S]: what goes in and out again is not seen */
+    double t;                      /* in [0, 1): where on the way the node is to stop; 1 without a hit */
+    double distance;               /* at x + t d, m: after a hit 0 <= distance < threshold; else that of the end, >= 0 */
+    int iterations;                /* evaluations of the distance between the ends of the way, of which each costs one more */
 } cipc_bisection_result;
-/* x is outside (distance >= 0; below the threshold: t = 0). threshold > 0, m. */
+/* x is outside, distance >= 0; threshold > 0, m. After a hit that begins below the threshold t = 0. Plain bisection takes at most ceil(log2(|d|/threshold)) iterations, the improved one at most
+ * three more than that and far fewer as a rule. Both always end: with a threshold below what numbers near x + t d can tell apart, at the last outside point found, whose distance may then not be below it.
+ * Against the contract, with x inside: t = 0 and distance < 0 after a hit. `distance` is bit for bit that of the point x[k] + t * d[k], so that it can be the next x. */
 cipc_bisection_result cipc_bisection(cipc_bisection_method method, const cipc_collider *collider, const double x[3], const double d[3], double threshold);
 
-/* Repulsion [R]: k (threshold - distance)_+ n for spheres and capsules, k threshold n while distance < threshold for tables and planes, N; only while the velocity is not separating. */
+/* Repulsion [R], N: k (threshold - distance)_+ n for spheres and capsules, k threshold n while distance < threshold for tables and planes; nothing while the velocity is separating, v.n > 0.
+ * k: stiffness, N/m. Acts inside as well. f[3] is overwritten. */
 void cipc_collider_repulsion(const cipc_collider *collider, double stiffness, double threshold, const double x[3], const double v[3], double f[3]);
 
 /* Wind on a triangle [R]: q A (n.w) n with w the wind minus the mean velocity of the corners, q in N s/m^3; a third of it on each, f[3]: on one corner. Both sides are alike; a triangle of
