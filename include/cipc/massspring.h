@@ -12,29 +12,31 @@
 /* ---- Friction laws (SPEC B.3, B.4) ---------------------------------------------------------------------------------------------------------- */
 
 typedef enum cipc_friction_law {
-    CIPC_LAW_COULOMB = 0,          /* Fc sgn v; at v = 0 what is asked for, up to Fs */
-    CIPC_LAW_DAHL,                 /* dz/dt = v - sigma0 |v| z / Fc, F = sigma0 z */
+    CIPC_LAW_COULOMB = 0,          /* Fc sgn v; 0 at v = 0: what is asked for then, up to Fs, only the caller knows. z is not used */
+    CIPC_LAW_DAHL,                 /* dz/dt = v - sigma0 |v| z / Fc, F = sigma0 z; neither Fs nor sigma1 */
     CIPC_LAW_BIDIRECTIONAL,        /* R1 [R]: Fc replaced by h(|v|) = Fs for |v| <= dv, Fc beyond; F = sigma0 z + sigma1 dz/dt */
     CIPC_LAW_BIDIRECTIONAL_SMOOTH, /* R1s [R]: h = Fc + (Fs - Fc) exp(-(v/dv)^2) */
-    CIPC_LAW_CLAMPED,              /* R2 [R]: dz/dt = v, but 0 where |z| >= h/sigma0 and z v > 0 */
+    CIPC_LAW_CLAMPED,              /* R2 [R]: dz/dt = v, but 0 where |z| >= h/sigma0 and z v > 0; in motion z is brought within h/sigma0 at once when h falls */
     CIPC_LAW_COUNT
 } cipc_friction_law;
-const char *cipc_friction_law_name(cipc_friction_law law); /* "coulomb", "dahl", "bidirectional", "bidirectional-smooth", "clamped" */
+const char *cipc_friction_law_name(cipc_friction_law law); /* "coulomb", "dahl", "bidirectional", "bidirectional-smooth", "clamped"; of none of them "unknown" */
 
 typedef struct cipc_friction_force {
     cipc_friction_law law;
-    double sigma0;                 /* N/m: stiffness before sliding; not of Coulomb */
+    double sigma0;                 /* N/m, > 0: stiffness before sliding; not of Coulomb */
     double sigma1;                 /* N s/m: differential coefficient; limited so that the law stays passive: min(sigma1, 4 h/|v|) */
     double coulomb, breakaway;     /* Fc <= Fs, N */
     double band;                   /* dv, m/s: of static friction */
 } cipc_friction_force;
 
-/* One step of dt at constant relative velocity v, exact in z (unconditionally stable). z: internal state, m, changed in place. Returns F, N, which resists: what acts on the body is -F.
- * F is sigma0 z' + sigma1 (z' - z)/dt with z' after the step. */
+/* One step of dt > 0 at constant relative velocity v, exact in z (unconditionally stable). z: internal state, m, changed in place; at v = 0 it stays. Returns F, N, which resists: what acts
+ * on the body is -F, and F on the other body. F is sigma0 z' + sigma1 (z' - z)/dt with z' after the step; a fall of the bound of the clamped law is not part of z' - z.
+ * |z| <= Fs/sigma0 (Dahl: Fc/sigma0) stays so, to rounding, while the forces stay the same. */
 double cipc_friction_step(const cipc_friction_force *force, double v, double dt, double *z);
-/* h(|v|), N. */
+/* h(|v|), N. Coulomb: Fs at rest, so that a load up to cipc_friction_level(force, 0) sticks, Fc in motion. Dahl: Fc. */
 double cipc_friction_level(const cipc_friction_force *force, double speed);
-/* In the contact plane of unit normal n: z is first carried into the plane (z - n (n.z), its length kept), v is the relative velocity, of which the tangential part counts. f[3]: resists. */
+/* In the contact plane of unit normal n: z is first carried into the plane (z - n (n.z), its length kept; 0 if z is along n), v is the relative velocity, of which the tangential part counts.
+ * f[3]: resists. Whoever makes a new contact sets z to 0; z of a contact that is lost is forgotten. On a line it is cipc_friction_step. */
 void cipc_friction_step_plane(const cipc_friction_force *force, const double normal[3], const double v[3], double dt, double z[3], double f[3]);
 
 /* ---- Springs (SPEC B.1) ------------------------------------------------------------------------------------------------------------------------ */
