@@ -1,4 +1,4 @@
-/* Sheets of springs on equilateral triangles, brought to rest by a plain method of their own: for tests of springs. Anything that fails ends the test. */
+/* Sheets of springs on equilateral triangles, moved and brought to rest by plain semi-implicit Euler: for tests of springs. Anything that fails ends the test. */
 #ifndef SUPPORT_SPRING_SHEET_H
 #define SUPPORT_SPRING_SHEET_H
 
@@ -15,6 +15,7 @@ typedef struct spring_sheet {
     double *x, *v, *force;          /* 3 * node_count */
     double *mass, *inverse_mass;    /* node_count; of the cloth, inverse 0: held */
     double gravity[3];
+    double drag;                    /* 1/s, times mass and velocity */
     double step;                    /* of spring_sheet_step, s */
 } spring_sheet;
 
@@ -24,13 +25,11 @@ void spring_sheet_free(spring_sheet *sheet);
 
 /* Forces of springs and gravity at x, v. */
 void spring_sheet_forces(spring_sheet *sheet);
-/* One step of semi-implicit Euler. */
+/* One step of semi-implicit Euler; drag is implicit, so that the step stays stable. */
 void spring_sheet_step(spring_sheet *sheet);
-/* Kinetic energy, J. */
-double spring_sheet_motion(const spring_sheet *sheet);
-/* Largest force on a free node, N, at the forces last taken. */
+/* Largest force on a free node, N, at the forces last taken, without drag. */
 double spring_sheet_residual(const spring_sheet *sheet);
-/* Steps, each time the kinetic energy has passed a peak from rest anew, until no free node feels more than `residual`, N. Returns the steps taken. */
+/* Steps until no free node feels more than `residual`, N. Returns how many. */
 int spring_sheet_settle(spring_sheet *sheet, double residual, int steps_max);
 
 #endif

@@ -49,7 +49,7 @@ static void test_both_sides_and_slopes(void **state)
 static void test_relative_velocity(void **state)
 {
     (void)state;
-    const double wind[3] = {0, 4, 0}, still[3] = {0}, with[9] = {0, 3, 0, 0, 4, 0, 0, 5, 0};
+    const double wind[3] = {0, 4, 0}, still[3] = {0}, with[9] = {0, 3, 0, 0, 6, 0, 0, 3, 0};
     double f[3];
     cipc_wind_force(0.5, wind, FLAT, with, f);
     assert_force(f, 0, 0, 0);
