@@ -10,6 +10,7 @@
 #include "cipc/contact.h"
 #include "cipc/implicit.h"
 #include "cipc/asynchronous.h"
+#include "cipc/massspring.h"
 #include "cipc/invariant.h"
 #include "cipc/scene.h"
 #include "cipc/output.h"

@@ -1,0 +1,263 @@
+/* Semi-implicit Euler on springs, with collision response and the bound on deformation, in substeps that are stable (SPEC B.6; docs/theory/massspring.md). */
+#include "massspring/stepper.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/vector.h"
+#include "massspring/topology.h"
+
+/* The stable step is that of springs; friction and repulsion are not in it. */
+static const double stable_fraction = 0.5;
+
+cipc_massspring_options cipc_massspring_options_default(void)
+{
+    return (cipc_massspring_options){.frame = 1.0 / 60, .deformation = 0.1, .sweeps = 100, .bisection = CIPC_BISECTION_IMPROVED, .threshold = 1e-3, .law = CIPC_LAW_BIDIRECTIONAL,
+                                     .presliding = 1e-4, .breakaway = 1.2, .damping_ratio = 0.5, .band = 1e-3};
+}
+
+static cipc_status check_options(const cipc_massspring_options *o, cipc_error *error)
+{
+    const struct { const char *name; double value; bool good; } numbers[] = {
+        {"frame", o->frame, o->frame > 0}, {"step", o->step, o->step >= 0}, {"bending_stiffness", o->bending_stiffness, o->bending_stiffness >= 0},
+        {"buckling", o->buckling, o->buckling >= 0}, {"deformation", o->deformation, o->deformation >= 0 && o->deformation < 1},
+        {"wind_pressure", o->wind_pressure, o->wind_pressure >= 0}, {"threshold", o->threshold, o->threshold > 0}, {"repulsion", o->repulsion, o->repulsion >= 0},
+        {"presliding", o->presliding, o->presliding > 0}, {"breakaway", o->breakaway, o->breakaway >= 1}, {"damping_ratio", o->damping_ratio, o->damping_ratio >= 0},
+        {"band", o->band, o->band > 0}, {"self_distance", o->self_distance, o->self_distance >= 0}, {"self_friction", o->self_friction, o->self_friction >= 0},
+    };
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        if (!numbers[i].good || !isfinite(numbers[i].value)) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "%s = %g is out of range", numbers[i].name, numbers[i].value);
+    if (o->sweeps < 1) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "sweeps = %d is out of range", o->sweeps);
+    if (o->self_distance > 0 && !(o->repulsion > 0)) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "cloth that is kept apart needs a repulsion");
+    return CIPC_OK;
+}
+
+static cipc_status no_memory(cipc_error *error) { return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "mass-spring", "no memory for the integrator"); }
+
+/* ---- Springs and triangles of all cloth ---- */
+
+static bool is_cloth_body(const cipc_body *body) { return !body->fixed && body->kind == CIPC_BODY_SHELL && body->material.membrane == CIPC_MEMBRANE_SPRINGS; }
+
+static cipc_status check_bodies(const cipc_model *m, cipc_error *error)
+{
+    for (int b = 0; b < m->body_count; b++)
+        if (!m->bodies[b].fixed && !is_cloth_body(&m->bodies[b])) return cipc_fail(error, CIPC_E_WRONG_TYPE, m->bodies[b].name, "the mass-spring method moves shells with a membrane of springs, and nothing else");
+    return CIPC_OK;
+}
+
+static cipc_spring spring_of(const cipc_massspring *s, const cipc_material *m, double length, bool structural)
+{
+    const double k = structural ? cipc_spring_stiffness_of_sheet(m->membrane_young, m->thickness) : s->options.bending_stiffness;
+    return (cipc_spring){.form = structural ? s->options.structural : s->options.bending_form, .length = length, .stiffness = k, .damping = m->damping_stiffness * k, .bending = s->options.buckling};
+}
+
+/* Springs of one sort of a body: structural ones stand before bending ones in the list of all, because the bound is theirs. */
+static cipc_status add_springs(cipc_massspring *s, int body, bool structural, cipc_error *error)
+{
+    massspring_topology t;
+    cipc_status status = massspring_topology_create(&t, s->model, body, error);
+    if (status) return status;
+    const int first = structural ? 0 : t.structural_count, count = structural ? t.structural_count : t.count - t.structural_count;
+    cipc_spring *springs = cipc_realloc(s->springs, (size_t)(s->spring_count + count), sizeof *springs);
+    if (springs) s->springs = springs;
+    int(*ends)[2] = cipc_realloc(s->ends, (size_t)(s->spring_count + count), sizeof *ends);
+    if (ends) s->ends = ends;
+    if (!springs || !ends) status = no_memory(error);
+    for (int k = first; k < first + count && !status; k++, s->spring_count++) {
+        s->springs[s->spring_count] = spring_of(s, &s->model->bodies[body].material, t.lengths[k], structural);
+        memcpy(s->ends[s->spring_count], t.ends[k], sizeof t.ends[k]);
+    }
+    massspring_topology_free(&t);
+    return status;
+}
+
+static int compare_pairs(const void *p, const void *q)
+{
+    const long long a = *(const long long *)p, b = *(const long long *)q;
+    return (a > b) - (a < b);
+}
+
+static cipc_status list_joined(cipc_massspring *s, cipc_error *error)
+{
+    s->joined = cipc_alloc((size_t)s->spring_count, sizeof *s->joined);
+    if (!s->joined) return no_memory(error);
+    for (int k = 0; k < s->spring_count; k++) {
+        const int a = s->ends[k][0], b = s->ends[k][1];
+        s->joined[k] = (long long)(a < b ? a : b) * s->model->node_count + (a < b ? b : a);
+    }
+    qsort(s->joined, (size_t)s->spring_count, sizeof *s->joined, compare_pairs);
+    return CIPC_OK;
+}
+
+static cipc_status find_cloth(cipc_massspring *s, cipc_error *error)
+{
+    const cipc_model *m = s->model;
+    cipc_status status = CIPC_OK;
+    s->triangles = cipc_alloc((size_t)m->triangle_count, sizeof *s->triangles);
+    if (!s->triangles) return no_memory(error);
+    for (int t = 0; t < m->triangle_count; t++)
+        if (is_cloth_body(&m->bodies[m->triangle_body[t]])) s->triangles[s->triangle_count++] = (const int(*)[3]) & m->triangles[t];
+    for (int i = 0; i < m->node_count; i++) s->is_cloth[i] = is_cloth_body(&m->bodies[m->node_body[i]]);
+    for (int b = 0; b < m->body_count && !status; b++)
+        if (is_cloth_body(&m->bodies[b])) status = add_springs(s, b, true, error);
+    s->structural_count = s->spring_count;
+    for (int b = 0; b < m->body_count && !status && s->options.bending_stiffness > 0; b++)
+        if (is_cloth_body(&m->bodies[b])) status = add_springs(s, b, false, error);
+    return status ? status : list_joined(s, error);
+}
+
+/* ---- The step ---- */
+
+static cipc_status choose_step(cipc_massspring *s, cipc_error *error)
+{
+    const double frame = s->options.frame, stable = stable_fraction * cipc_spring_stable_step(s->springs, (const int(*)[2])s->ends, s->spring_count, s->inverse_mass, s->model->node_count);
+    const double asked = s->options.step > 0 ? s->options.step : frame;
+    if (!(stable > 0)) return no_memory(error);
+    if (s->options.refuse && asked > stable) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a step of %g s is too long for these springs: at most %g s", asked, stable);
+    s->substeps = (int)ceil(frame / fmin(asked, stable) * (1 - 1e-12));
+    s->h = frame / s->substeps;
+    return CIPC_OK;
+}
+
+static bool allocate(cipc_massspring *s, const cipc_collider *colliders, int count)
+{
+    const size_t n = (size_t)s->model->node_count;
+    s->inverse_mass = cipc_alloc(n, sizeof *s->inverse_mass);
+    s->force = cipc_alloc(3 * n, sizeof *s->force);
+    s->target = cipc_alloc(3 * n, sizeof *s->target);
+    s->is_dirichlet = cipc_alloc(n, sizeof *s->is_dirichlet);
+    s->moves = cipc_alloc(n, sizeof *s->moves);
+    s->is_cloth = cipc_alloc(n, sizeof *s->is_cloth);
+    s->contacts = cipc_alloc(n, sizeof *s->contacts);
+    s->colliders = cipc_alloc((size_t)count, sizeof *s->colliders);
+    if (!s->inverse_mass || !s->force || !s->target || !s->is_dirichlet || !s->moves || !s->is_cloth || !s->contacts || !s->colliders) return false;
+    for (int c = 0; c < count; c++) s->colliders[c] = colliders[c];
+    s->collider_count = count;
+    for (size_t i = 0; i < n; i++) {
+        s->contacts[i].collider = -1;
+        s->inverse_mass[i] = 1 / s->model->mass[i];
+    }
+    return true;
+}
+
+cipc_status cipc_massspring_create(cipc_massspring **integrator, const cipc_model *model, const cipc_collider *colliders, int collider_count, const cipc_massspring_options *options,
+                                   cipc_error *error)
+{
+    *integrator = NULL;
+    cipc_status status = check_options(options, error);
+    if (!status) status = check_bodies(model, error);
+    if (status) return status;
+    cipc_massspring *s = cipc_alloc(1, sizeof *s);
+    if (!s) return no_memory(error);
+    s->model = model;
+    s->options = *options;
+    if (!allocate(s, colliders, collider_count)) status = no_memory(error);
+    if (!status) status = find_cloth(s, error);
+    if (!status) status = choose_step(s, error);
+    if (status) cipc_massspring_destroy(s);
+    else *integrator = s;
+    return status;
+}
+
+void cipc_massspring_destroy(cipc_massspring *s)
+{
+    if (!s) return;
+    void *blocks[] = {s->colliders, s->springs, s->ends, s->triangles, s->inverse_mass, s->force, s->target, s->is_dirichlet, s->moves, s->contacts, s->is_cloth, s->joined, s};
+    for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) cipc_free(blocks[i]);
+}
+
+/* ---- Stepping ---- */
+
+/* Prescribed nodes move as the script has them at the end of the substep. */
+static void read_script(cipc_massspring *s, const double *x, double time)
+{
+    const cipc_model *m = s->model;
+    cipc_dirichlet_targets(m, x, time, s->h, s->is_dirichlet, s->target, s->moves);
+    for (int i = 0; i < m->node_count; i++) s->inverse_mass[i] = s->is_dirichlet[i] || !s->is_cloth[i] ? 0 : 1 / m->mass[i];
+}
+
+static void move_prescribed(const cipc_massspring *s, int i, double *x, double *v)
+{
+    for (int k = 0; k < 3; k++) {
+        v[3 * i + k] = s->moves[i] ? (s->target[3 * i + k] - x[3 * i + k]) / s->h : 0;
+        x[3 * i + k] = s->target[3 * i + k];
+    }
+}
+
+/* v += h f/m, then x += h v as far as bodies let it. */
+static void advance(cipc_massspring *s, double *x, double *v)
+{
+    for (int i = 0; i < s->model->node_count; i++) {
+        if (!s->is_cloth[i]) continue;
+        if (!(s->inverse_mass[i] > 0)) {
+            move_prescribed(s, i, x, v);
+            continue;
+        }
+        v3_axpy(v + 3 * i, s->h * s->inverse_mass[i], s->force + 3 * i);
+        massspring_respond(s, i, x + 3 * i, v + 3 * i);
+    }
+}
+
+static void bound_deformation(cipc_massspring *s, double *x, double *v)
+{
+    const int(*ends)[2] = (const int(*)[2])s->ends;
+    if (!(s->options.deformation > 0)) return;
+    if (s->options.reading == CIPC_DEFORMATION_REST_LENGTH) {
+        cipc_deformation_adjust(s->springs, ends, s->structural_count, s->options.deformation, x);
+        return;
+    }
+    s->report.sweeps += cipc_deformation_project(s->springs, ends, s->structural_count, s->options.deformation, 1e-3, s->options.sweeps, s->inverse_mass, s->h, x, v, NULL);
+}
+
+static cipc_status substep(cipc_massspring *s, double time, double *x, double *v, cipc_error *error)
+{
+    read_script(s, x, time);
+    massspring_forces(s, x, v);
+    if (s->options.self_distance > 0) {
+        const cipc_status status = massspring_self_forces(s, x, v, error);
+        if (status) return status;
+    }
+    advance(s, x, v);
+    bound_deformation(s, x, v);
+    return CIPC_OK;
+}
+
+static double potential_of(const cipc_spring *spring, double r)
+{
+    const double longer = r - spring->length;
+    return spring->form == CIPC_SPRING_TENSION && longer < 0 ? 0 : 0.5 * spring->stiffness * longer * longer;
+}
+
+static void measure(cipc_massspring *s, const double *x, const double *v)
+{
+    cipc_massspring_report *r = &s->report;
+    for (int i = 0; i < s->model->node_count; i++) {
+        if (!(s->inverse_mass[i] > 0)) continue;
+        r->kinetic += 0.5 * s->model->mass[i] * v3_norm2(v + 3 * i);
+        r->gravitational -= s->model->mass[i] * v3_dot(s->model->gravity, x + 3 * i);
+    }
+    for (int k = 0; k < s->spring_count; k++) {
+        double between[3];
+        v3_sub(between, x + 3 * s->ends[k][1], x + 3 * s->ends[k][0]);
+        r->elastic += potential_of(&s->springs[k], v3_norm(between));
+    }
+    r->deformation = cipc_deformation_greatest(s->springs, (const int(*)[2])s->ends, s->structural_count, x);
+}
+
+cipc_status cipc_massspring_step(cipc_massspring *s, cipc_state *state, cipc_massspring_report *report, cipc_error *error)
+{
+    const int n = 3 * s->model->node_count;
+    cipc_status status = CIPC_OK;
+    s->report = (cipc_massspring_report){.substeps = s->substeps, .substep = s->h};
+    for (int k = 0; k < s->substeps && !status; k++) status = substep(s, state->step * s->options.frame + k * s->h, state->position, state->velocity, error);
+    for (int i = 0; i < n && !status; i++)
+        if (!isfinite(state->position[i]) || !isfinite(state->velocity[i]))
+            status = cipc_fail(error, CIPC_E_NO_PROGRESS, "mass-spring", "step %d: node %d is no longer anywhere: a shorter step is needed", state->step + 1, i / 3);
+    if (status) return status;
+    measure(s, state->position, state->velocity);
+    *report = s->report;
+    state->step++;
+    state->time = state->step * s->options.frame;
+    return CIPC_OK;
+}

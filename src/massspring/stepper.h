@@ -1,0 +1,44 @@
+/* The working memory of the mass-spring integrator. One substep reads: stepper.c -> forces.c (springs, gravity, wind, repulsion, friction) -> response.c (bisection) -> deformation.c. */
+#ifndef MASSSPRING_STEPPER_H
+#define MASSSPRING_STEPPER_H
+
+#include "cipc/massspring.h"
+
+/* A node's contact with a body: friction's memory. */
+typedef struct massspring_contact {
+    int collider;          /* -1: none */
+    double z[3];           /* m: internal state of the friction law, in the tangent plane */
+    double impulse;        /* N s: what bisection took along the normal in the substep before */
+    double tangent[3];     /* m/s: tangential velocity a substep ago */
+} massspring_contact;
+
+struct cipc_massspring {
+    const cipc_model *model;
+    cipc_massspring_options options;
+    cipc_collider *colliders;
+    int collider_count;
+    int spring_count, structural_count;
+    cipc_spring *springs;
+    int (*ends)[2];
+    int triangle_count;            /* of cloth: wind blows on them */
+    const int (**triangles)[3];
+    int substeps;                  /* in a frame */
+    double h;                      /* s */
+    double *inverse_mass;          /* 0: prescribed now */
+    double *force;                 /* 3 * node_count, N */
+    double *target;                /* of prescribed nodes */
+    bool *is_dirichlet, *moves;
+    massspring_contact *contacts;  /* by node */
+    bool *is_cloth;
+    long long *joined;             /* pairs of nodes that a spring joins, lower * node_count + higher, sorted */
+    cipc_massspring_report report;
+};
+
+/* forces.c: all forces at x and v into s->force. */
+void massspring_forces(cipc_massspring *s, const double *x, const double *v);
+/* self.c: nodes of the cloth that are too near to each other. CIPC_E_OUT_OF_MEMORY. */
+cipc_status massspring_self_forces(cipc_massspring *s, const double *x, const double *v, cipc_error *error);
+/* response.c: a node's way of a substep, cut where it would lead into a body; its velocity loses what goes inward. */
+void massspring_respond(cipc_massspring *s, int node, double x[3], double v[3]);
+
+#endif
