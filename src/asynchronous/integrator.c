@@ -80,9 +80,11 @@ static bool allocate(cipc_asynchronous *a)
     return true;
 }
 
-/* Balls no smaller than half of eta(1), no larger than a tenth of an element. */
+/* Balls no smaller than half of eta(1); no larger than a fraction of the adjacent elements: a tenth near contact, elsewhere as large as leaves the elements around a flat node out of each
+ * other's reach. */
 static void size_balls(cipc_asynchronous *a)
 {
+    static const double near_contact = 0.1, elsewhere = 0.25, particle = 8 /* of `least` */;
     const cipc_model *m = a->model;
     for (int i = 0; i < m->node_count; i++) {
         a->balls[i].least = 0.5 * a->options.thickness;
@@ -93,12 +95,15 @@ static void size_balls(cipc_asynchronous *a)
         v3_sub(edge, m->rest + 3 * m->edges[e][1], m->rest + 3 * m->edges[e][0]);
         for (int k = 0; k < 2; k++) {
             asynchronous_ball *ball = &a->balls[m->edges[e][k]];
-            ball->most = fmin(ball->most, 0.1 * v3_norm(edge));
+            ball->most = fmin(ball->most, v3_norm(edge));
         }
     }
-    for (int i = 0; i < m->node_count; i++)
-        if (!(a->balls[i].most < INFINITY)) a->balls[i].most = 8 * a->balls[i].least; /* particles */
-    for (int i = 0; i < m->node_count; i++) a->balls[i].most = fmax(a->balls[i].most, a->balls[i].least);
+    for (int i = 0; i < m->node_count; i++) {
+        asynchronous_ball *ball = &a->balls[i];
+        const bool in_element = ball->most < INFINITY;
+        ball->most_near = fmax(in_element ? near_contact * ball->most : particle * ball->least, ball->least);
+        ball->most = fmax(in_element ? elsewhere * ball->most : particle * ball->least, ball->least);
+    }
 }
 
 static cipc_status create_events(cipc_asynchronous *a, cipc_error *error)
@@ -318,6 +323,15 @@ static bool is_time_for_lists(const cipc_asynchronous *a, int next)
     return a->broad.stale && !a->status && (next < 0 || asynchronous_queue_time(&a->queue, next) > a->now);
 }
 
+/* Between two instants, so that what is due in one is done, and the state can be taken up there; in one that does not end, after as many again. */
+static bool has_stalled(cipc_asynchronous *a, int next)
+{
+    const long events = count_events(a), limit = a->options.event_limit;
+    if (events <= limit || (events - limit <= limit && asynchronous_queue_time(&a->queue, next) <= a->now)) return false;
+    asynchronous_fail(a, CIPC_E_NO_PROGRESS, "stalled: more than %ld events in this step", limit);
+    return true;
+}
+
 static void run_until(cipc_asynchronous *a, double end)
 {
     while (!a->status) {
@@ -330,12 +344,10 @@ static void run_until(cipc_asynchronous *a, double end)
             asynchronous_separation_start(a);
             next = asynchronous_queue_next(&a->queue);
         }
-        if (a->status || next < 0 || asynchronous_queue_time(&a->queue, next) > end) break;
+        if (a->status || next < 0 || asynchronous_queue_time(&a->queue, next) > end || has_stalled(a, next)) break;
         a->now = asynchronous_queue_time(&a->queue, next);
         a->timed = timing(a, a->queue.events[next]);
         execute(a, a->queue.events[next]);
-        if (a->event_count % 1024 == 0 && count_events(a) > a->options.event_limit)
-            asynchronous_fail(a, CIPC_E_NO_PROGRESS, "stalled: more than %ld events in this step", a->options.event_limit);
     }
 }
 

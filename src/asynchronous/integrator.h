@@ -24,7 +24,7 @@ typedef struct asynchronous_node {
 typedef struct asynchronous_ball {
     double center[3], radius;
     double deadline;       /* s: a node that goes on as it does is inside until then */
-    double least, most;    /* m: bounds of the radius */
+    double least, most_near, most; /* m: bounds of the radius; near contact, and away from it */
     int event;
 } asynchronous_ball;
 
@@ -113,7 +113,6 @@ typedef struct asynchronous_leaf {
     int triangle, segment;      /* -1: not one */
     int owned_nodes[3], owned_edges[3];
     int owned_node_count, owned_edge_count;
-    double travel;              /* m: of all its balls */
 } asynchronous_leaf;
 
 typedef struct asynchronous_tree_node {
@@ -126,6 +125,7 @@ typedef struct asynchronous_tree_node {
 /* One entry of the separation list: two disjoint tree nodes, or two leaves that are not. Entry e is in the lists of both, as link 2e and 2e + 1. */
 typedef struct asynchronous_separation {
     int node[2];
+    double bound;               /* of leaves: nothing changes before the sum of their travels has grown to this */
     int axis;                   /* that separates them; -1: overlapping leaves */
     int previous[2], next[2];   /* links */
     int overlap;                /* of overlapping leaves; also the list of unused entries */
@@ -133,7 +133,6 @@ typedef struct asynchronous_separation {
 
 /* Two leaves that overlap: the pairs of primitives that they own. */
 typedef struct asynchronous_overlap {
-    double bound;               /* nothing comes near before the sum of the two leaves' travels has grown to this */
     uint16_t meets;             /* combinations that can ever be in contact */
     int pair[ASYNCHRONOUS_COMBINATIONS]; /* -1: not near */
 } asynchronous_overlap;
@@ -143,6 +142,7 @@ typedef struct asynchronous_broad {
     asynchronous_leaf *leaves;
     asynchronous_tree_node *tree;
     int *leaf_place;            /* tree node of a leaf */
+    double *travel;             /* by tree node, of leaves, m: how far their balls have moved and grown in all */
     int *incident_first, *incident; /* leaves of a node: incident[incident_first[i] .. incident_first[i+1]) */
     double *shadow;             /* node_count * ASYNCHRONOUS_AXES: projections of the centres */
     asynchronous_separation *entry;

@@ -110,7 +110,8 @@ cipc_status asynchronous_tree_create(cipc_asynchronous *a, cipc_error *error)
     sorted_leaf *sorted = cipc_alloc(leaves, sizeof *sorted);
     if (!b->tree) b->tree = cipc_alloc(2 * leaves, sizeof *b->tree);
     if (!b->leaf_place) b->leaf_place = cipc_alloc(leaves, sizeof *b->leaf_place);
-    const bool good = sorted && b->tree && b->leaf_place;
+    if (!b->travel) b->travel = cipc_alloc(2 * leaves, sizeof *b->travel);
+    const bool good = sorted && b->tree && b->leaf_place && b->travel;
     b->tree_count = 0;
     for (int i = 0; good && i < b->leaf_count; i++) sorted[i] = (sorted_leaf){0, i};
     if (good && leaves > 0) build(a, sorted, b->leaf_count, -1);

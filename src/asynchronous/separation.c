@@ -50,6 +50,9 @@ static void unlink_entry(asynchronous_broad *b, int e)
     b->live_entries--;
 }
 
+/* How far both sides have travelled. A pair of leaves is left alone until that has used up what they were apart. */
+static double travel_of(const asynchronous_broad *b, const asynchronous_separation *e) { return b->travel[e->node[0]] + b->travel[e->node[1]]; }
+
 /* ---- Overlapping leaves ----------------------------------------------------------------------------------------------------------------------- */
 
 static int take_overlap(cipc_asynchronous *a)
@@ -107,21 +110,14 @@ static double clearance(const cipc_asynchronous *a, const asynchronous_combinati
     return asynchronous_closest_points(c->kind, x).distance - *room - reach;
 }
 
-/* Nothing that was clear of contact can have come near since it was last looked at. */
-static bool is_quiet(const cipc_asynchronous *a, const asynchronous_separation *e)
-{
-    const asynchronous_broad *b = &a->broad;
-    return b->leaves[b->tree[e->node[0]].leaf].travel + b->leaves[b->tree[e->node[1]].leaf].travel < b->overlap[e->overlap].bound;
-}
-
 /* The pairs of two overlapping leaves that may come into contact while the balls stay where they are own certificates, and no others. */
-static void look_at_overlap(cipc_asynchronous *a, const asynchronous_separation *e)
+static void look_at_overlap(cipc_asynchronous *a, int entry)
 {
-    const int number = e->overlap;
+    asynchronous_separation *e = &a->broad.entry[entry];
     const asynchronous_leaf *p = &a->broad.leaves[a->broad.tree[e->node[0]].leaf], *q = &a->broad.leaves[a->broad.tree[e->node[1]].leaf];
-    asynchronous_overlap *o = &a->broad.overlap[number];
-    const double travel = p->travel + q->travel;
-    o->bound = INFINITY;
+    asynchronous_overlap *o = &a->broad.overlap[e->overlap];
+    const double travel = travel_of(&a->broad, e);
+    e->bound = INFINITY;
     for (int i = 0; i < ASYNCHRONOUS_COMBINATIONS && !a->status; i++) {
         asynchronous_combination c;
         double room;
@@ -133,7 +129,7 @@ static void look_at_overlap(cipc_asynchronous *a, const asynchronous_separation 
             o->pair[i] = -1;
         }
         if (!(clear > 0) && o->pair[i] < 0) o->pair[i] = asynchronous_pair_create(a, c.kind, c.nodes, c.order);
-        o->bound = fmin(o->bound, travel + (clear > 0 ? clear : fmax(room, a->options.thickness)));
+        e->bound = fmin(e->bound, travel + (clear > 0 ? clear : fmax(room, a->options.thickness)));
     }
 }
 
@@ -146,13 +142,11 @@ static void begin_overlap(cipc_asynchronous *a, int e, uint16_t meets)
         return;
     }
     asynchronous_overlap *o = &a->broad.overlap[number];
-    o->bound = -INFINITY;
     o->meets = meets;
     for (int i = 0; i < ASYNCHRONOUS_COMBINATIONS; i++) o->pair[i] = -1;
     a->broad.entry[e].axis = -1;
     a->broad.entry[e].overlap = number;
-    const asynchronous_separation copy = a->broad.entry[e];
-    look_at_overlap(a, &copy);
+    look_at_overlap(a, e);
 }
 
 /* ---- The list ----------------------------------------------------------------------------------------------------------------------------------- */
@@ -173,7 +167,7 @@ static void add_entry(cipc_asynchronous *a, int p, int q, int axis, uint16_t mee
         asynchronous_fail(a, CIPC_E_OUT_OF_MEMORY, "no memory for the separation list");
         return;
     }
-    a->broad.entry[e] = (asynchronous_separation){.node = {p, q}, .axis = axis, .overlap = -1};
+    a->broad.entry[e] = (asynchronous_separation){.node = {p, q}, .axis = axis, .overlap = -1, .bound = -INFINITY};
     a->broad.live_entries++;
     link_entry(&a->broad, e);
     if (axis < 0) begin_overlap(a, e, meets);
@@ -225,29 +219,50 @@ void asynchronous_separation_start(cipc_asynchronous *a)
 
 static bool is_apart(const asynchronous_kdop *p, const asynchronous_kdop *q, int axis) { return p->along[axis].hi < q->along[axis].lo || q->along[axis].hi < p->along[axis].lo; }
 
+static int widest_gap(const asynchronous_kdop *p, const asynchronous_kdop *q, double *gap)
+{
+    int widest = 0;
+    *gap = -INFINITY;
+    for (int k = 0; k < ASYNCHRONOUS_AXES; k++) {
+        const double apart = max2(q->along[k].lo - p->along[k].hi, p->along[k].lo - q->along[k].hi);
+        if (!(apart > *gap)) continue;
+        *gap = apart;
+        widest = k;
+    }
+    return widest;
+}
+
+/* Two leaves: apart along the direction along which they are most so, or overlapping. */
+static void look_at_leaves(cipc_asynchronous *a, int number)
+{
+    asynchronous_separation *e = &a->broad.entry[number];
+    const asynchronous_tree_node *p = &a->broad.tree[e->node[0]], *q = &a->broad.tree[e->node[1]];
+    double gap;
+    const int axis = widest_gap(&p->dop, &q->dop, &gap);
+    if (gap > 0) {
+        if (e->axis < 0) drop_overlap(a, e->overlap);
+        e->axis = axis;
+        e->bound = travel_of(&a->broad, e) + gap;
+    } else if (e->axis < 0) {
+        look_at_overlap(a, number);
+    } else {
+        begin_overlap(a, number, combinations_that_meet(a, &a->broad.leaves[p->leaf], &a->broad.leaves[q->leaf]));
+    }
+}
+
 static void look_at_entry(cipc_asynchronous *a, int number)
 {
     asynchronous_broad *b = &a->broad;
     asynchronous_separation *e = &b->entry[number];
-    if (e->axis < 0 && is_quiet(a, e)) return;
     const int p = e->node[0], q = e->node[1];
+    if (travel_of(b, e) < e->bound) return;
     const asynchronous_kdop *dop_p = &b->tree[p].dop, *dop_q = &b->tree[q].dop;
-    if (e->axis >= 0 && is_apart(dop_p, dop_q, e->axis)) return;
-    const int axis = asynchronous_kdop_axis(dop_p, dop_q);
-    if (axis >= 0) {
-        if (e->axis < 0) drop_overlap(a, e->overlap);
-        b->entry[number].axis = axis;
-        return;
-    }
-    if (e->axis < 0) {
-        const asynchronous_separation copy = *e;
-        look_at_overlap(a, &copy);
-        return;
-    }
-    const asynchronous_leaf *leaf_p = leaf_of(b, p), *leaf_q = leaf_of(b, q);
-    if (leaf_p && leaf_q) {
-        begin_overlap(a, number, combinations_that_meet(a, leaf_p, leaf_q));
-    } else {
+    if (leaf_of(b, p) && leaf_of(b, q)) {
+        look_at_leaves(a, number);
+    } else if (!is_apart(dop_p, dop_q, e->axis)) {
+        const int axis = asynchronous_kdop_axis(dop_p, dop_q);
+        e->axis = axis;
+        if (axis >= 0) return;
         unlink_entry(b, number);
         cover(a, p, q);
     }
@@ -277,28 +292,34 @@ static bool grow_to_hold(asynchronous_kdop *dop, const asynchronous_kdop *inner)
     return grown;
 }
 
-/* A leaf's k-DOP anew; what is above it grows where it must. */
-static void update_leaf(cipc_asynchronous *a, int leaf)
+/* What is above a leaf grows where it must. */
+static void look_above(cipc_asynchronous *a, int place)
 {
     asynchronous_broad *b = &a->broad;
-    const int place = b->leaf_place[leaf];
-    asynchronous_leaf_dop(a, leaf, &b->tree[place].dop);
     int below = place;
     for (int node = b->tree[place].parent; node >= 0 && grow_to_hold(&b->tree[node].dop, &b->tree[below].dop); below = node, node = b->tree[node].parent) look_at_node(a, node);
-    look_at_node(a, place);
 }
 
+/* All leaves at the node first, because they are each other's neighbours: what they have travelled and where they are must agree when entries are looked at. */
 void asynchronous_separation_update(cipc_asynchronous *a, int node, double travel)
 {
     asynchronous_broad *b = &a->broad;
-    for (int i = b->incident_first[node]; i < b->incident_first[node + 1]; i++) b->leaves[b->incident[i]].travel += travel;
-    for (int i = b->incident_first[node]; i < b->incident_first[node + 1] && !a->status; i++) update_leaf(a, b->incident[i]);
+    const int *leaves = b->incident + b->incident_first[node], count = b->incident_first[node + 1] - b->incident_first[node];
+    for (int i = 0; i < count; i++) {
+        const int place = b->leaf_place[leaves[i]];
+        b->travel[place] += travel;
+        asynchronous_leaf_dop(a, leaves[i], &b->tree[place].dop);
+    }
+    for (int i = 0; i < count && !a->status; i++) {
+        look_above(a, b->leaf_place[leaves[i]]);
+        look_at_node(a, b->leaf_place[leaves[i]]);
+    }
     b->stale = b->live_entries > LIST_GROWTH * b->fresh_entries + LIST_SPARE;
 }
 
 void asynchronous_broad_free(cipc_asynchronous *a)
 {
     asynchronous_broad *b = &a->broad;
-    void *blocks[] = {b->leaves, b->tree, b->leaf_place, b->incident_first, b->incident, b->shadow, b->entry, b->overlap};
+    void *blocks[] = {b->leaves, b->tree, b->leaf_place, b->travel, b->incident_first, b->incident, b->shadow, b->entry, b->overlap};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) cipc_free(blocks[i]);
 }

@@ -116,18 +116,18 @@ static bool owns_certificate(const cipc_asynchronous *a, cipc_pair_kind kind, co
     return times == 1;
 }
 
-/* Nearest that the two can come: at the balls' centres, less the largest radius of either. */
+/* So near the two can come for certain: as at the balls' centres, less the smallest radius of either. */
 static void look_at_pair(void *context, cipc_pair_kind kind, const int nodes[4], int first, int second)
 {
     owners *o = context;
     const cipc_asynchronous *a = o->a;
     const int count = cipc_pair_nodes(kind), own = cipc_pair_first_nodes(kind);
-    double x[12] = {0}, radius[2] = {0, 0};
+    double x[12] = {0}, radius[2] = {INFINITY, INFINITY};
     (void)first, (void)second;
     for (int i = 0; i < count; i++) {
         const asynchronous_ball *ball = &a->balls[nodes[i]];
         v3_copy(x + 3 * i, ball->center);
-        radius[i >= own] = fmax(radius[i >= own], ball->radius);
+        radius[i >= own] = fmin(radius[i >= own], ball->radius);
     }
     const double gap = asynchronous_closest_points(kind, x).distance - cipc_model_pair_offset(a->model, nodes[0], nodes[own]) - a->options.thickness;
     if (gap > radius[0] + radius[1] - 1e-12) return;
