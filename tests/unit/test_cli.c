@@ -73,7 +73,7 @@ static int tear_down(void **state)
 /* What a run of the program gave. */
 typedef struct outcome {
     int exit_status; /* -1: it did not end by itself */
-    char out[16384], err[8192];
+    char out[65536], err[8192];
 } outcome;
 
 enum { MOST_WORDS = 16 };
