@@ -3,7 +3,7 @@
 #include "cipc/massspring.h"
 
 /* How many iterations beyond those of plain bisection in its worst case the improved one may take, (8). */
-static const int spare_iterations = 3;
+static const int spare_iterations = 5;
 
 /* Outside at `low`, inside at `high`. The values are those of the distance less half the threshold, but for what the Illinois rule has halved. */
 typedef struct bracket {
