@@ -98,7 +98,7 @@ verify: ## the functions of the solver against exact and MPFR arithmetic: a larg
 VALIDATION_PAGE   ?= docs/validation.md
 VALIDATION_IMAGES ?= docs/images
 VALIDATION_TESTS  := $(addprefix tests/scenes/test_,plane rods shells volumes hertz locking splitting stack) \
-    $(addprefix tests/asynchronous/test_,impact collision resting events energy friction damping)
+    $(addprefix tests/asynchronous/test_,impact collision resting events energy friction damping) tests/massspring/test_iterations
 validation: ## physics against closed forms: run their tests, write the table and the plots of docs/validation.md
 	$(SUBMAKE) all $(VALIDATION_TESTS:%=$(BUILD)/%)
 	@rm -f $(BUILD)/validation.tsv

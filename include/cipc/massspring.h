@@ -113,8 +113,9 @@ typedef struct cipc_bisection_result {
     double distance;               /* at x + t d, m: after a hit 0 <= distance < threshold; else that of the end, >= 0 */
     int iterations;                /* evaluations of the distance between the ends of the way, of which each costs one more */
 } cipc_bisection_result;
-/* x is outside, distance >= 0; threshold > 0, m. After a hit that begins below the threshold t = 0. Plain bisection takes at most ceil(log2(|d|/threshold)) iterations, the improved one at most
- * three more than that and far fewer as a rule. Both always end: with a threshold below what numbers near x + t d can tell apart, at the last outside point found, whose distance may then not be below it.
+/* x is outside, distance >= 0; threshold > 0, m. After a hit that begins below the threshold t = 0. Plain bisection takes at most
+ * N = ceil(log2(|d|/threshold)) iterations, the improved one at most N + 5 + 3 log3(2 N - 1) and far fewer as a rule. Both always end: with a threshold below what
+ * numbers near x + t d can tell apart, at the last outside point found, whose distance may then not be below it.
  * Against the contract, with x inside: t = 0 and distance < 0 after a hit. `distance` is bit for bit that of the point x[k] + t * d[k], so that it can be the next x. */
 cipc_bisection_result cipc_bisection(cipc_bisection_method method, const cipc_collider *collider, const double x[3], const double d[3], double threshold);
 

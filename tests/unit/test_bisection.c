@@ -108,7 +108,15 @@ static void test_roots_of_spheres(void **state)
     }
 }
 
-/* Any body: both end outside by less than the threshold, plain within ceil(log2(|d|/m)) and improved within three more. */
+/* N + 5 + 3 floor(log3(2 N - 1)), (8). */
+static int bound_of_improved(int N)
+{
+    int sum = N + 5;
+    for (int power = 3; power <= 2 * N - 1; power *= 3) sum += 3;
+    return sum;
+}
+
+/* Any body: both end outside by less than the threshold, plain within ceil(log2(|d|/m)) and improved within few more, (8). */
 static void test_bounds(void **state)
 {
     (void)state;
@@ -132,12 +140,27 @@ static void test_bounds(void **state)
             assert_true(hit ? r.distance < m && r.t < 1 : r.t == 1 && r.iterations == 0);
             iterations[method] = r.iterations;
         }
-        assert_true(iterations[0] <= bound && iterations[1] <= bound + 3);
+        assert_true(iterations[0] <= bound && iterations[1] <= bound_of_improved(bound));
         most_above = (int)fmax(most_above, iterations[1] - iterations[0]);
         count[c.kind] += hit;
     }
     for (int kind = 0; kind < COLLIDER_KINDS; kind++) assert_true(count[kind] > 300);
     print_message("improved bisection takes at most %d iterations more than plain on the same way\n", most_above);
+}
+
+/* All but through a table or a ball: from 1 m outside to 1e-12 m inside at the far side. */
+static void test_nearly_through(void **state)
+{
+    (void)state;
+    const cipc_collider table = {.kind = CIPC_COLLIDER_BOX, .half = {1, 0.05, 1}}, ball = {.kind = CIPC_COLLIDER_SPHERE, .half = {0.05, 0, 0}};
+    const cipc_collider *const both[2] = {&table, &ball};
+    const double x[3] = {0, 1.05, 0}, d[3] = {0, -1.1 + 1e-12, 0};
+    for (int k = 0; k < 2; k++)
+        for (double m = 1e-2; m > 1e-6; m *= 0.7) {
+            const cipc_bisection_result r = cipc_bisection(CIPC_BISECTION_IMPROVED, both[k], x, d, m);
+            assert_true(r.hit && r.distance >= 0 && r.distance < m);
+            assert_true(r.iterations <= bound_of_improved(least_power_of_two_at_least(v3_norm(d) / m)));
+        }
 }
 
 /* The end of the way decides: what flies through is not seen. A start in the band stays, one that leaves goes. */
@@ -193,6 +216,7 @@ int main(void)
         cmocka_unit_test(test_planes_exactly),
         cmocka_unit_test(test_roots_of_spheres),
         cmocka_unit_test(test_bounds),
+        cmocka_unit_test(test_nearly_through),
         cmocka_unit_test(test_what_is_detected),
         cmocka_unit_test(test_always_ends),
     };
