@@ -66,7 +66,7 @@ double friction_block_spring(const friction_block *block)
 
 void friction_block_step(friction_block *block, const cipc_friction_force *force, double dt)
 {
-    block->v += dt / block->mass * (friction_block_spring(block) + block->load - block->friction);
+    block->v += dt / block->mass * (friction_block_spring(block) + block->load - block->drag * block->v - block->friction);
     block->x += dt * block->v;
     block->friction = cipc_friction_step(force, block->v, dt, &block->z);
     block->time += dt;

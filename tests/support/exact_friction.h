@@ -16,9 +16,9 @@ double exact_tanh_defect(double a);
 /* scale * log(numerator/denominator). */
 double exact_log_ratio(double scale, double numerator, double denominator);
 
-/* A block of the given mass under a load, on a spring whose other end moves with the velocity `pull`. Semi-implicit Euler: the velocity is kicked by the forces at x and then moves x and z alike. */
+/* A block of the given mass under a load, braked by drag times its velocity, on a spring whose other end moves with the velocity `pull`. Semi-implicit Euler: the velocity is kicked by the forces at x and then moves x and z alike. */
 typedef struct friction_block {
-    double mass, spring, pull, load;
+    double mass, spring, pull, load, drag;
     double time, x, v, z, friction;
 } friction_block;
 double friction_block_spring(const friction_block *block);

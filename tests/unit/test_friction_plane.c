@@ -127,6 +127,25 @@ static void test_two_halves_are_the_step(void **state)
     }
 }
 
+/* Work less growth of sigma0 |z|^2/2, step by step on a random way, Fs = 1.5 Fc and sigma1 far beyond its bound at the greatest speeds. */
+static void test_no_step_gives_energy(void **state)
+{
+    (void)state;
+    const double normal[3] = {0, 0, 1};
+    uint64_t seed = 14;
+    for (int law = 0; law < CIPC_LAW_COUNT; law++) {
+        cipc_friction_force force = of_law(law);
+        double z[3] = {0, 0, 0}, f[3], least = 1e9;
+        for (int i = 0; i < 20000; i++) {
+            double speed = random_speed(&seed), a = random_uniform(&seed, 0, 6.28), dt = 0.02 / speed * pow(10, random_uniform(&seed, -2, 1)), before = v3_norm2(z);
+            const double v[3] = {speed * cos(a), speed * sin(a), 0};
+            cipc_friction_step_plane(&force, normal, v, dt, z, f);
+            least = fmin(least, v3_dot(f, v) * dt - 0.5 * force.sigma0 * (v3_norm2(z) - before));
+        }
+        if (!(least >= -1e-14 / 50)) fail_msg("%s: a step gives %g J", cipc_friction_law_name((cipc_friction_law)law), -least);
+    }
+}
+
 static void test_steady_motion(void **state)
 {
     (void)state;
@@ -149,6 +168,7 @@ int main(void)
         cmocka_unit_test(test_no_direction_is_special),
         cmocka_unit_test(test_state_is_carried_along),
         cmocka_unit_test(test_two_halves_are_the_step),
+        cmocka_unit_test(test_no_step_gives_energy),
         cmocka_unit_test(test_steady_motion),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
