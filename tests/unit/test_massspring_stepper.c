@@ -1,0 +1,174 @@
+/* The mass-spring integrator: its step is semi-implicit Euler, stable or refused; bodies are not entered; sliding cloth stops where Coulomb's law says; the bound on deformation holds. */
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <setjmp.h>
+#include <cmocka.h>
+
+#include <math.h>
+#include <string.h>
+
+#include "cipc/massspring.h"
+#include "cipc/scene.h"
+#include "support/sheet_scene.h"
+
+static const double edge = 0.05, g = 9.81;
+
+typedef struct cloth {
+    sheet_scene sheet;
+    cipc_massspring_options options;
+    cipc_collider collider;
+    int collider_count;
+    cipc_massspring *integrator;
+    cipc_massspring_report report;
+    cipc_error error;
+} cloth;
+
+/* A sheet of equilateral triangles at a height, moving along x. */
+static void start(cloth *c, double height, double speed)
+{
+    cipc_mesh mesh;
+    *c = (cloth){.options = cipc_massspring_options_default()};
+    sheet_scene_init(&c->sheet);
+    c->sheet.gravity[1] = -g;
+    assert_int_equal(cipc_mesh_equilateral(&mesh, edge, 6, 6, NULL), CIPC_OK);
+    for (int i = 0; i < mesh.node_count; i++) mesh.nodes[3 * i + 1] += height;
+    cipc_body_description *b = sheet_add_body(&c->sheet, "cloth", mesh.node_count, mesh.nodes, mesh.triangle_count, (const int(*)[3])mesh.triangles);
+    b->material.membrane = CIPC_MEMBRANE_SPRINGS;
+    b->material.membrane_young = 2e4;
+    b->material.membrane_poisson = 1.0 / 3;
+    b->material.density = 300;
+    b->material.thickness = 1e-3;
+    b->material.bending_young = 0;
+    b->material.damping_stiffness = 1e-3;
+    const double velocity[3] = {speed, 0, 0};
+    sheet_set_velocity(b, velocity);
+    cipc_mesh_free(&mesh);
+    sheet_scene_model(&c->sheet);
+}
+
+static void build(cloth *c) { assert_int_equal(cipc_massspring_create(&c->integrator, c->sheet.model, &c->collider, c->collider_count, &c->options, &c->error), CIPC_OK); }
+
+static void add_floor(cloth *c, double mu)
+{
+    c->collider = (cipc_collider){.kind = CIPC_COLLIDER_PLANE, .axis = {0, 1, 0}, .friction = mu};
+    c->collider_count = 1;
+}
+
+static void finish(cloth *c)
+{
+    cipc_massspring_destroy(c->integrator);
+    sheet_scene_free(&c->sheet);
+}
+
+static void steps(cloth *c, int count)
+{
+    for (int i = 0; i < count; i++) assert_int_equal(cipc_massspring_step(c->integrator, c->sheet.state, &c->report, &c->error), CIPC_OK);
+}
+
+/* v += h g, then x += h v: after n substeps the sheet has fallen by g h^2 n (n + 1)/2, all of it. */
+static void test_free_fall(void **state)
+{
+    (void)state;
+    cloth c;
+    start(&c, 1, 0);
+    build(&c);
+    steps(&c, 10);
+    const double n = 10.0 * c.report.substeps, h = c.report.substep, fallen = g * h * h * n * (n + 1) / 2;
+    for (int i = 0; i < c.sheet.model->node_count; i++) {
+        assert_true(fabs(c.sheet.state->position[3 * i + 1] - (1 - fallen)) < 1e-12);
+        assert_true(fabs(c.sheet.state->velocity[3 * i + 1] + g * n * h) < 1e-11);
+    }
+    assert_true(c.sheet.state->step == 10 && c.sheet.state->time == 10 * c.options.frame);
+    finish(&c);
+}
+
+/* What is too long is divided, or refused with the longest that is not. */
+static void test_long_steps(void **state)
+{
+    (void)state;
+    cloth c;
+    start(&c, 1, 0);
+    c.options.frame = 1;
+    build(&c);
+    steps(&c, 1);
+    assert_true(c.report.substeps > 10 && fabs(c.report.substeps * c.report.substep - 1) < 1e-12);
+    cipc_massspring_destroy(c.integrator);
+    c.options.refuse = true;
+    assert_int_equal(cipc_massspring_create(&c.integrator, c.sheet.model, NULL, 0, &c.options, &c.error), CIPC_E_OUT_OF_RANGE);
+    assert_non_null(strstr(c.error.what, "too long"));
+    c.options.step = 1e-4;
+    build(&c);
+    steps(&c, 1);
+    assert_int_equal(c.report.substeps, 10000);
+    finish(&c);
+}
+
+/* A sheet that slides on a floor: after v0^2/(2 mu g) it is at rest, up to what it sinks and to the displacement before sliding; with every law that has no memory of more. */
+static void test_sliding_stops(void **state)
+{
+    (void)state;
+    const double mu = 0.4, v0 = 1, way = v0 * v0 / (2 * mu * g);
+    const cipc_friction_law laws[] = {CIPC_LAW_DAHL, CIPC_LAW_BIDIRECTIONAL, CIPC_LAW_CLAMPED};
+    for (size_t k = 0; k < sizeof laws / sizeof *laws; k++) {
+        cloth c;
+        start(&c, 0, v0);
+        add_floor(&c, mu);
+        c.options.law = laws[k];
+        c.options.breakaway = 1;
+        c.options.deformation = 0;
+        c.options.step = 1e-4;
+        build(&c);
+        const double from = c.sheet.state->position[0];
+        steps(&c, 40);
+        const double gone = c.sheet.state->position[0] - from;
+        print_message("%s: %.6g m, closed form %.6g m, reversals %ld\n", cipc_friction_law_name(laws[k]), gone, way, c.report.reversals);
+        assert_true(fabs(gone - way) < 0.03 * way);
+        assert_true(c.report.kinetic < 1e-6);
+        for (int i = 0; i < c.sheet.model->node_count; i++) assert_true(c.sheet.state->position[3 * i + 1] >= 0);
+        finish(&c);
+    }
+}
+
+/* A ball: no node inside after any frame, B within its bound. */
+static void test_cloth_on_a_ball(void **state)
+{
+    (void)state;
+    cloth c;
+    start(&c, 0.11, 0);
+    c.collider = (cipc_collider){.kind = CIPC_COLLIDER_SPHERE, .half = {0.1}, .friction = 0.5};
+    c.collider_count = 1;
+    build(&c);
+    for (int k = 0; k < 60; k++) {
+        steps(&c, 1);
+        for (int i = 0; i < c.sheet.model->node_count; i++) assert_true(cipc_collider_distance(&c.collider, c.sheet.state->position + 3 * i, NULL) >= -2e-3);
+        assert_true(c.report.deformation <= 0.1 * (1 + 1e-3));
+    }
+    assert_true(c.report.contacts > 0);
+    finish(&c);
+}
+
+static void test_refusals(void **state)
+{
+    (void)state;
+    cloth c;
+    start(&c, 1, 0);
+    const double numbers[] = {-1, (double)NAN, (double)INFINITY};
+    for (size_t k = 0; k < 3; k++) {
+        cipc_massspring_options o = c.options;
+        o.threshold = numbers[k];
+        assert_int_equal(cipc_massspring_create(&c.integrator, c.sheet.model, NULL, 0, &o, &c.error), CIPC_E_OUT_OF_RANGE);
+        assert_null(c.integrator);
+    }
+    c.sheet.model->bodies[0].material.membrane = CIPC_MEMBRANE_STVK;
+    assert_int_equal(cipc_massspring_create(&c.integrator, c.sheet.model, NULL, 0, &c.options, &c.error), CIPC_E_WRONG_TYPE);
+    finish(&c);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_free_fall), cmocka_unit_test(test_long_steps), cmocka_unit_test(test_sliding_stops), cmocka_unit_test(test_cloth_on_a_ball), cmocka_unit_test(test_refusals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
