@@ -115,6 +115,9 @@ static int refused(const request *r, const char *name, const cipc_error *error)
 /* Nothing is put to continuous collision detection where there is none: an empty file would look like a run without contact. */
 static cipc_status check_method(const request *r, const cipc_scene *scene, cipc_error *error)
 {
+    if (scene->method == CIPC_METHOD_MASS_SPRING) { /* its scenes can be read, its steps not yet be taken */
+        return cipc_fail(error, CIPC_E_USAGE, scene->path, "the method mass-spring cannot be run yet");
+    }
     if (r->record_ccd == NULL || scene->method == CIPC_METHOD_C_IPC) {
         return CIPC_OK;
     }
