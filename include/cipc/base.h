@@ -123,7 +123,7 @@ typedef struct cipc_stencil_path {
 } cipc_stencil_path;
 
 /* The methods that take the steps of a run, by the names they have in scenes and summaries. */
-#define CIPC_METHODS(X) X(C_IPC, "c-ipc") X(ASYNCHRONOUS, "asynchronous")
+#define CIPC_METHODS(X) X(C_IPC, "c-ipc") X(ASYNCHRONOUS, "asynchronous") X(MASS_SPRING, "mass-spring")
 typedef enum cipc_method {
 #define CIPC_X(name, text) CIPC_METHOD_##name,
     CIPC_METHODS(CIPC_X)

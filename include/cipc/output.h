@@ -10,6 +10,7 @@
 #include "cipc/base.h"
 #include "cipc/implicit.h"
 #include "cipc/invariant.h"
+#include "cipc/massspring.h"
 #include "cipc/model.h"
 
 /* ---- Trajectory (HDF5) ---------------------------------------------------------------------------------------------------
@@ -53,7 +54,7 @@ cipc_status cipc_obj_write(const char *path, const cipc_model *model, const doub
 /* violation.json: which invariant broke where, and what the monitors reported of the point (report may be NULL). Written atomically. */
 cipc_status cipc_violation_write(const char *path, const cipc_accepted_point *point, double time_before,
                                  const cipc_invariant_report *report, const cipc_error *violation, cipc_error *error);
-/* The same of the method asynchronous: a window of paths from one time to another, s, or the frame at that time, both the same. */
+/* The same of the methods that have no accepted points: a window of paths from one time to another, s, or the frame at that time, both the same. */
 cipc_status cipc_asynchronous_violation_write(const char *path, int steps_taken, double time_before, const double window[2],
                                               const cipc_invariant_report *report, const cipc_error *violation, cipc_error *error);
 
@@ -71,6 +72,7 @@ typedef struct cipc_step_invariants {
     double momentum_change;         /* kg m/s */
     cipc_invariant_report worst;    /* smallest gap, largest stretch; counters are sums */
     double max_segment_stretch;     /* largest length of a rod's segment by its rest length, in double arithmetic; 0: none */
+    bool counted, intersects, too_near; /* of the method mass-spring, which does not guarantee M1 and M2: they have been looked at; the frame breaks them */
 } cipc_step_invariants;
 cipc_step_invariants cipc_step_invariants_none(void);
 /* Take in the report of one more point. */
@@ -87,6 +89,10 @@ cipc_status cipc_stats_write(FILE *file, const cipc_state *state, const cipc_ste
 /* The same of the method asynchronous. */
 cipc_status cipc_asynchronous_stats_write(FILE *file, const cipc_state *state, const cipc_asynchronous_report *report,
                                           const cipc_step_invariants *invariants, cipc_error *error);
+/* The same of the method mass-spring. */
+typedef struct cipc_massspring_times { double frame, step, monitor; } cipc_massspring_times; /* s: simulated; of wall clock, of the step and of the monitors */
+cipc_status cipc_massspring_stats_write(FILE *file, const cipc_state *state, const cipc_massspring_report *report, const cipc_massspring_times *times,
+                                        const cipc_step_invariants *invariants, cipc_error *error);
 /* The keys of the quantiles of vertex steps: "min", "p5", "p25", "median", "p75", "p95", "max". */
 extern const char *const cipc_quantile_names[CIPC_QUANTILES];
 
@@ -101,6 +107,23 @@ typedef struct cipc_asynchronous_totals {
     double smallest_step;           /* s; INFINITY: nothing ticked */
     double seconds[CIPC_ASYNCHRONOUS_PHASE_COUNT];
 } cipc_asynchronous_totals;
+
+/* Frames that break an invariant which the method mass-spring does not guarantee. The monitors stop at the first pair: so frames are counted, not pairs. */
+typedef struct cipc_counted {
+    long frames;
+    int first_step;                 /* that led to the first of them; 0: none */
+    cipc_error first;               /* what the monitor said of it; "" after reading statistics back, which do not have it */
+} cipc_counted;
+
+/* Totals that only the method mass-spring has. */
+typedef struct cipc_massspring_totals {
+    long frames;                    /* that the monitors looked at */
+    cipc_counted intersecting, too_near; /* M1, M2 */
+    long substeps, hits, iterations, sweeps, reversals;
+    int max_self_contacts;
+    double max_deformation;         /* B */
+    double frame_seconds, step_seconds, monitor_seconds; /* s: simulated; of wall clock */
+} cipc_massspring_totals;
 
 /* Totals of a run. */
 typedef struct cipc_run_summary {
@@ -122,7 +145,7 @@ typedef struct cipc_run_summary {
     const char *momentum_source;    /* why M7 has nothing to say, or NULL */
     int bodies_apart;               /* pairs of bodies that the scene lets pass through each other */
     int stitches;
-    long points_checked;            /* accepted line-search points that the monitors looked at; of the method asynchronous: frames and windows of paths */
+    long points_checked;            /* accepted line-search points that the monitors looked at; of the other methods: frames and windows of paths */
     long windows_checked;           /* of these, windows of paths */
     long energy_checks;             /* of these, points of which M6 could be checked */
     long momentum_checks;           /* steps of which M7 was */
@@ -134,6 +157,7 @@ typedef struct cipc_run_summary {
     double seconds;                 /* of wall clock, in all */
     double output_seconds, seconds_by_phase[CIPC_PHASE_COUNT];
     cipc_asynchronous_totals asynchronous;
+    cipc_massspring_totals massspring;
     long peak_memory_kb;
     int threads;
     unsigned long seed;
@@ -148,8 +172,10 @@ void cipc_run_summary_of_model(cipc_run_summary *summary, const cipc_model *mode
 void cipc_run_summary_add(cipc_run_summary *summary, const cipc_step_report *report, const cipc_step_invariants *invariants);
 /* The same of the method asynchronous. */
 void cipc_asynchronous_summary_add(cipc_run_summary *summary, const cipc_asynchronous_report *report, const cipc_step_invariants *invariants);
+/* The same of the method mass-spring. */
+void cipc_massspring_summary_add(cipc_run_summary *summary, const cipc_massspring_report *report, const cipc_massspring_times *times, const cipc_step_invariants *invariants);
 
-/* The verdict on an invariant, 1..8 for M1..M8: "holds", "violated" or "not checked" (the file adds the reason to those of M6 and M7). */
+/* The verdict on an invariant, 1..8 for M1..M8: "holds", "violated", "counted" (M1 and M2 of the method mass-spring) or "not checked". The files add counts and reasons. */
 const char *cipc_run_summary_verdict(const cipc_run_summary *summary, int invariant);
 
 /* summary.json, written atomically. */
@@ -182,6 +208,8 @@ void cipc_ccd_record_discard(cipc_ccd_record *record);
 
 /* The progress line of the method asynchronous: step, simulated time, events, deepest layer and contacts of the step, its smallest clock, minimum gap, time left. */
 void cipc_asynchronous_progress_line(FILE *terminal, int step, int steps, double time, const cipc_asynchronous_report *report, double min_gap, double seconds_left);
+/* That of the method mass-spring: step, simulated time, substeps, contacts, hits, deformation, simulated by real time, time left. */
+void cipc_massspring_progress_line(FILE *terminal, int step, int steps, double time, const cipc_massspring_report *report, const cipc_massspring_times *times, double seconds_left);
 /* Progress line on a terminal: step, simulated time, Newton iterations, contacts, minimum gap, largest stretch, time left. */
 void cipc_progress_line(FILE *terminal, int step, int steps, double time, int newton_iterations, int contacts, double min_gap,
                         double max_stretch, double seconds_left);
@@ -206,5 +234,7 @@ cipc_status cipc_frames_png(const char *path, const char *trajectory_path, const
 cipc_status cipc_plots_png(const char *path, const char *stats_path, double strain_limit, double dhat, cipc_error *error);
 /* Six plots of the method asynchronous: gap with the layers' thickness, largest stretch, energies; the distribution of vertex steps (log), events per step, deepest layer. */
 cipc_status cipc_asynchronous_plots_png(const char *path, const char *stats_path, double thickness, cipc_error *error);
+/* Four plots of the method mass-spring: deformation B with its bound (0: none), contacts, energies, evaluations of bisection per hit. */
+cipc_status cipc_massspring_plots_png(const char *path, const char *stats_path, double bound, cipc_error *error);
 
 #endif

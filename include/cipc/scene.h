@@ -8,6 +8,7 @@
 #include "cipc/asynchronous.h"
 #include "cipc/base.h"
 #include "cipc/implicit.h"
+#include "cipc/massspring.h"
 #include "cipc/model.h"
 
 /* A mesh: triangles of a shell, segments of rods, tetrahedra of a volume, or nodes alone; arrays are owned. */
@@ -131,6 +132,9 @@ typedef struct cipc_scene {
     cipc_method method;
     cipc_implicit_options options;       /* of the method c-ipc; time_step and threads are those of every method */
     cipc_asynchronous_options asynchronous; /* of the method asynchronous */
+    cipc_massspring_options massspring;  /* of the method mass-spring */
+    int collider_count;                  /* of the method mass-spring; others have none */
+    cipc_collider *colliders;
     bool monitor;                        /* default true */
     bool monitor_swept;                  /* paths too (M5); default true */
     double monitor_reach;                /* m */

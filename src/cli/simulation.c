@@ -193,6 +193,9 @@ static cipc_status open_run(cipc_simulation *s, cipc_error *error)
 /* Why M7 has nothing to say, or NULL. */
 static const char *momentum_source(const cipc_scene *scene)
 {
+    if (scene->method == CIPC_METHOD_MASS_SPRING) {
+        return "mass-spring steps"; /* colliders, wind, projection and friction of cloth on itself: no bound on their rounding is derived */
+    }
     return scene->options.quasistatic ? "quasistatic steps" : cipc_momentum_source(scene->model);
 }
 
@@ -219,7 +222,7 @@ static void begin_summary(cipc_simulation *s)
     s->summary.command = s->request->command;
     s->summary.steps_asked = scene->steps;
     s->summary.monitored = s->request->monitor;
-    s->summary.swept = s->request->monitor && scene->monitor_swept;
+    s->summary.swept = s->request->monitor && scene->monitor_swept && scene->method != CIPC_METHOD_MASS_SPRING;
     cipc_run_summary_of_model(&s->summary, scene->model);
     s->summary.momentum_source = momentum_source(scene);
     s->summary.bodies_apart = count_apart(scene->model);
@@ -241,8 +244,10 @@ static cipc_status prepare(cipc_simulation *s)
 
 static void say_interrupted(const cipc_simulation *s)
 {
-    fprintf(stderr, "cipc: %s: interrupted by a signal after step %d of %d: go on with --resume\n", s->request->directory,
-            s->scene->state->step < s->summary.steps_taken ? s->scene->state->step : s->summary.steps_taken, s->scene->steps);
+    const bool resumes = s->scene->method != CIPC_METHOD_MASS_SPRING;
+    fprintf(stderr, "cipc: %s: interrupted by a signal after step %d of %d: %s\n", s->request->directory,
+            s->scene->state->step < s->summary.steps_taken ? s->scene->state->step : s->summary.steps_taken, s->scene->steps,
+            resumes ? "go on with --resume" : "start again, the method mass-spring does not resume");
 }
 
 /* Room for the point accepted before, for the swept monitor, and for the velocities before a step, for that of momentum. */
@@ -297,6 +302,7 @@ static void clear(cipc_simulation *s)
     cipc_ccd_record_discard(s->ccd_record); /* likewise */
     cipc_stepper_destroy(s->stepper);
     cipc_asynchronous_destroy(s->integrator);
+    cipc_massspring_destroy(s->massspring);
     cipc_monitor_destroy(s->monitor);
     cipc_free(s->previous);
     cipc_free(s->velocity);

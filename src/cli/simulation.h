@@ -24,6 +24,7 @@ typedef struct cipc_simulation {
     cipc_monitor *monitor;
     cipc_stepper *stepper;           /* of the method c-ipc, else NULL */
     cipc_asynchronous *integrator;   /* of the method asynchronous, else NULL */
+    cipc_massspring *massspring;     /* of the method mass-spring, else NULL */
     cipc_trajectory *trajectory;
     FILE *stats;
     cipc_ccd_record *ccd_record;     /* NULL: none is asked for */
@@ -31,6 +32,8 @@ typedef struct cipc_simulation {
     cipc_step_invariants seen;       /* of the step under way */
     cipc_step_report report;         /* of the last step (c-ipc) */
     cipc_asynchronous_report events; /* of the last step (asynchronous) */
+    cipc_massspring_report springs;  /* of the last step (mass-spring) */
+    cipc_massspring_times times;     /* likewise */
     double energy;                   /* at its end, without the gravitational, J (asynchronous); 0: not known */
     double *previous;                /* 3 * node_count: the point accepted before, where the next path begins; NULL: paths are not checked */
     double *velocity;                /* 3 * node_count: before the step under way; NULL: momentum is not checked */

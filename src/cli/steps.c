@@ -24,6 +24,9 @@ void cipc_simulation_write_state(const cipc_simulation *s, const char *name, con
 
 const cipc_steps *cipc_steps_of(cipc_method method)
 {
+    if (method == CIPC_METHOD_MASS_SPRING) {
+        return &cipc_massspring_steps;
+    }
     return method == CIPC_METHOD_ASYNCHRONOUS ? &cipc_asynchronous_steps : &cipc_implicit_steps;
 }
 

@@ -12,7 +12,7 @@ typedef struct cipc_steps {
     void (*show_line)(const cipc_simulation *s, double seconds_left); /* of progress, on stderr */
     cipc_status (*plot)(const cipc_simulation *s, const char *plots, const char *stats, cipc_error *error);
 } cipc_steps;
-extern const cipc_steps cipc_implicit_steps, cipc_asynchronous_steps;
+extern const cipc_steps cipc_implicit_steps, cipc_asynchronous_steps, cipc_massspring_steps;
 const cipc_steps *cipc_steps_of(cipc_method method);
 
 /* Put where it was found before the place of an error of the monitors. */

@@ -40,6 +40,16 @@ void cipc_asynchronous_progress_line(FILE *terminal, int step, int steps, double
     fflush(terminal);
 }
 
+void cipc_massspring_progress_line(FILE *terminal, int step, int steps, double time, const cipc_massspring_report *report, const cipc_massspring_times *times, double seconds_left)
+{
+    char left[32], factor[32];
+    format_duration(left, sizeof left, seconds_left);
+    format_measure(factor, sizeof factor, times->step > 0 ? times->frame / times->step : (double)NAN, "x");
+    fprintf(terminal, "\r\033[Kstep %d/%d  t %.4g s  substeps %d  contacts %d  hits %ld  deformation %.4f  real time %s  left %s", step, steps, time, report->substeps, report->contacts,
+            report->hits, report->deformation, factor, left);
+    fflush(terminal);
+}
+
 void cipc_progress_line(FILE *terminal, int step, int steps, double time, int newton_iterations, int contacts, double min_gap,
                         double max_stretch, double seconds_left)
 {

@@ -86,3 +86,33 @@ void cipc_asynchronous_summary_add(cipc_run_summary *summary, const cipc_asynchr
     summary->max_contacts = report->max_contacts > summary->max_contacts ? report->max_contacts : summary->max_contacts;
     add_invariants(summary, invariants);
 }
+
+/* Steps are counted as frames are: every one is looked at, or none. */
+static void count_frame(cipc_counted *counted, bool broken, long frame)
+{
+    if (broken && counted->frames++ == 0) {
+        counted->first_step = (int)frame;
+    }
+}
+
+void cipc_massspring_summary_add(cipc_run_summary *summary, const cipc_massspring_report *report, const cipc_massspring_times *times, const cipc_step_invariants *invariants)
+{
+    cipc_massspring_totals *totals = &summary->massspring;
+    totals->substeps += report->substeps;
+    totals->hits += report->hits;
+    totals->iterations += report->iterations;
+    totals->sweeps += report->sweeps;
+    totals->reversals += report->reversals;
+    totals->max_self_contacts = report->self_contacts > totals->max_self_contacts ? report->self_contacts : totals->max_self_contacts;
+    totals->max_deformation = fmax(totals->max_deformation, report->deformation);
+    totals->frame_seconds += times->frame;
+    totals->step_seconds += times->step;
+    totals->monitor_seconds += times->monitor;
+    summary->max_contacts = report->contacts > summary->max_contacts ? report->contacts : summary->max_contacts;
+    add_invariants(summary, invariants);
+    if (invariants != NULL && invariants->counted) {
+        totals->frames++;
+        count_frame(&totals->intersecting, invariants->intersects, totals->frames);
+        count_frame(&totals->too_near, invariants->too_near, totals->frames);
+    }
+}

@@ -10,14 +10,14 @@
 /* How long to run, what to look at and what to write along the way: none changes a frame. */
 static const char *const irrelevant[] = {"title", "comment", "size", "sizes", "steps", "monitor", "output"};
 
-static bool is_asynchronous(const json_t *scene)
+static bool is_of(const json_t *scene, cipc_method wanted)
 {
     const char *method = json_string_value(json_object_get(scene, "method"));
-    return method != NULL && strcmp(method, cipc_method_name(CIPC_METHOD_ASYNCHRONOUS)) == 0;
+    return method != NULL && strcmp(method, cipc_method_name(wanted)) == 0;
 }
 
 /* Dropping fails if it is not there, which is fine. */
-static void drop_irrelevant(json_t *scene, bool asynchronous)
+static void drop_irrelevant(json_t *scene, bool asynchronous, bool mass_spring)
 {
     for (size_t i = 0; i < sizeof irrelevant / sizeof irrelevant[0]; i++) {
         json_object_del(scene, irrelevant[i]);
@@ -27,6 +27,10 @@ static void drop_irrelevant(json_t *scene, bool asynchronous)
     } else { /* of the other method; scenes resolved by older programs do not have them */
         json_object_del(scene, "asynchronous");
         json_object_del(scene, "loads");
+    }
+    if (!mass_spring) {
+        json_object_del(scene, "mass_spring");
+        json_object_del(scene, "colliders");
     }
 }
 
@@ -97,9 +101,10 @@ bool cipc_scene_match(const char *a, const char *b, char *path, size_t size)
     json_t *scene_a = json_loads(a, 0, NULL), *scene_b = json_loads(b, 0, NULL);
     bool matches = false;
     if (scene_a != NULL && scene_b != NULL) {
-        const bool asynchronous = is_asynchronous(scene_a) && is_asynchronous(scene_b);
-        drop_irrelevant(scene_a, asynchronous);
-        drop_irrelevant(scene_b, asynchronous);
+        const bool asynchronous = is_of(scene_a, CIPC_METHOD_ASYNCHRONOUS) && is_of(scene_b, CIPC_METHOD_ASYNCHRONOUS);
+        const bool mass_spring = is_of(scene_a, CIPC_METHOD_MASS_SPRING) && is_of(scene_b, CIPC_METHOD_MASS_SPRING);
+        drop_irrelevant(scene_a, asynchronous, mass_spring);
+        drop_irrelevant(scene_b, asynchronous, mass_spring);
         matches = same(scene_a, scene_b, path, size);
     }
     json_decref(scene_a);

@@ -110,6 +110,16 @@ static void add_line(const json_t *line, cipc_run_summary *summary)
     cipc_run_summary_add(summary, &report, monitored ? &invariants : NULL);
 }
 
+typedef void line_adder(const json_t *line, cipc_run_summary *summary);
+
+static line_adder *add_line_of(cipc_method method)
+{
+    if (method == CIPC_METHOD_MASS_SPRING) {
+        return cipc_massspring_line_add;
+    }
+    return method == CIPC_METHOD_ASYNCHRONOUS ? cipc_asynchronous_line_add : add_line;
+}
+
 /* Copy the lines of steps 1..step from `in` to `out` and add them up; returns how many there were. */
 static int keep_lines(FILE *in, FILE *out, int step, cipc_run_summary *summary)
 {
@@ -118,11 +128,7 @@ static int keep_lines(FILE *in, FILE *out, int step, cipc_run_summary *summary)
         json_t *line = json_loadf(in, JSON_DISABLE_EOF_CHECK, NULL);
         bool expected = line != NULL && json_integer_value(json_object_get(line, "step")) == kept + 1;
         if (expected) {
-            if (summary->method == CIPC_METHOD_ASYNCHRONOUS) {
-                cipc_asynchronous_line_add(line, summary);
-            } else {
-                add_line(line, summary);
-            }
+            add_line_of(summary->method)(line, summary);
             json_dumpf(line, out, JSON_COMPACT | CIPC_JSON_FORMAT);
             fputc('\n', out);
             kept++;

@@ -6,18 +6,42 @@
 #include "output/versions.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { INVARIANT_COUNT = 8 };
 
-/* The verdict, and of M6 and M7 why there is none. */
+/* Frames that break M1 or M2, of the method mass-spring. */
+static const cipc_counted *counted_of(const cipc_run_summary *summary, int invariant)
+{
+    return invariant == 1 ? &summary->massspring.intersecting : &summary->massspring.too_near;
+}
+
+/* Why M5 and M6 are not checked, or NULL. */
+static const char *reason_of_method(const cipc_run_summary *summary, int invariant)
+{
+    const bool massspring = summary->method == CIPC_METHOD_MASS_SPRING;
+    if (invariant == 5 && massspring) {
+        return "the method makes no claim about paths";
+    }
+    if (invariant == 6 && massspring) {
+        return "explicit steps minimise no potential";
+    }
+    return invariant == 6 && summary->method == CIPC_METHOD_ASYNCHRONOUS ? "the energy oscillates" : NULL;
+}
+
+/* The verdict; of those of the method mass-spring that are counted, how many, and of M5 to M7 why there is none. */
 static json_t *verdict_text(const cipc_run_summary *summary, int invariant)
 {
     const char *verdict = cipc_run_summary_verdict(summary, invariant);
     if (invariant == 7 && summary->monitored && summary->momentum_source != NULL) {
         return json_sprintf("%s: %s", verdict, summary->momentum_source);
     }
-    if (invariant == 6 && summary->monitored && summary->method == CIPC_METHOD_ASYNCHRONOUS) {
-        return json_sprintf("%s: the energy oscillates", verdict);
+    if (strcmp(verdict, "counted") == 0) {
+        return json_sprintf("%s: %ld of %ld frames %s", verdict, counted_of(summary, invariant)->frames, summary->massspring.frames, invariant == 1 ? "intersect" : "are too near");
+    }
+    const char *reason = reason_of_method(summary, invariant);
+    if (reason != NULL && summary->monitored) {
+        return json_sprintf("%s: %s", verdict, reason);
     }
     return json_string(verdict);
 }
@@ -76,14 +100,51 @@ static json_t *invariants_object(const cipc_run_summary *summary, bool *good)
     return object;
 }
 
+static double monitor_seconds(const cipc_run_summary *summary)
+{
+    if (summary->method == CIPC_METHOD_MASS_SPRING) {
+        return summary->massspring.monitor_seconds;
+    }
+    return summary->method == CIPC_METHOD_ASYNCHRONOUS ? summary->asynchronous.seconds[CIPC_ASYNCHRONOUS_PHASE_MONITOR] : summary->seconds_by_phase[CIPC_PHASE_MONITOR];
+}
+
+/* Of the first frame that breaks an invariant which the method mass-spring does not guarantee. */
+static json_t *first_object(const cipc_counted *counted, bool *good)
+{
+    if (counted->frames == 0) {
+        return json_null();
+    }
+    json_t *object = json_object();
+    cipc_json_put(object, "step", json_integer(counted->first_step), good);
+    cipc_json_put(object, "what", text_or_null(counted->first.what), good);
+    return object;
+}
+
+static json_t *counted_object(const cipc_run_summary *summary, bool *good)
+{
+    json_t *object = json_object();
+    cipc_json_put(object, "frames", json_integer(summary->massspring.frames), good);
+    for (int invariant = 1; invariant <= 2; invariant++) {
+        const cipc_counted *counted = counted_of(summary, invariant);
+        json_t *one = json_object();
+        cipc_json_put(one, "frames", json_integer(counted->frames), good);
+        cipc_json_put(one, "first", first_object(counted, good), good);
+        cipc_json_put(object, invariant == 1 ? "M1" : "M2", one, good);
+    }
+    return object;
+}
+
 static json_t *monitors_object(const cipc_run_summary *summary, bool *good)
 {
     const bool asynchronous = summary->method == CIPC_METHOD_ASYNCHRONOUS;
-    const double seconds = asynchronous ? summary->asynchronous.seconds[CIPC_ASYNCHRONOUS_PHASE_MONITOR] : summary->seconds_by_phase[CIPC_PHASE_MONITOR];
+    const double seconds = monitor_seconds(summary);
     json_t *object = json_object();
     cipc_json_put(object, "points_checked", json_integer(summary->points_checked), good);
     if (asynchronous) {
         cipc_json_put(object, "windows_checked", json_integer(summary->windows_checked), good);
+    }
+    if (summary->method == CIPC_METHOD_MASS_SPRING) {
+        cipc_json_put(object, "counted", counted_object(summary, good), good);
     }
     cipc_json_put(object, "energy_checks", json_integer(summary->energy_checks), good);
     cipc_json_put(object, "momentum_checks", json_integer(summary->momentum_checks), good);
@@ -118,6 +179,9 @@ static json_t *extremes_object(const cipc_run_summary *summary, bool *good)
     cipc_json_put(object, "max_contacts", json_integer(summary->max_contacts), good);
     if (summary->method == CIPC_METHOD_ASYNCHRONOUS) {
         put_asynchronous_extremes(object, &summary->asynchronous, good);
+    } else if (summary->method == CIPC_METHOD_MASS_SPRING) {
+        cipc_json_put(object, "max_deformation", cipc_json_number(summary->massspring.max_deformation), good);
+        cipc_json_put(object, "max_self_contacts", json_integer(summary->massspring.max_self_contacts), good);
     } else {
         cipc_json_put(object, "max_newton_iterations", json_integer(summary->max_newton_iterations), good);
     }
@@ -137,8 +201,24 @@ static json_t *asynchronous_totals_object(const cipc_asynchronous_totals *totals
     return object;
 }
 
+static json_t *massspring_totals_object(const cipc_massspring_totals *totals, bool *good)
+{
+    json_t *object = json_object();
+    const bool measured = totals->step_seconds > 0;
+    cipc_json_put(object, "substeps", json_integer(totals->substeps), good);
+    cipc_json_put(object, "hits", json_integer(totals->hits), good);
+    cipc_json_put(object, "bisection_iterations", json_integer(totals->iterations), good);
+    cipc_json_put(object, "sweeps", json_integer(totals->sweeps), good);
+    cipc_json_put(object, "reversals", json_integer(totals->reversals), good);
+    cipc_json_put(object, "real_time_factor", measured ? cipc_json_number(totals->frame_seconds / totals->step_seconds) : json_null(), good);
+    return object;
+}
+
 static json_t *totals_object(const cipc_run_summary *summary, bool *good)
 {
+    if (summary->method == CIPC_METHOD_MASS_SPRING) {
+        return massspring_totals_object(&summary->massspring, good);
+    }
     if (summary->method == CIPC_METHOD_ASYNCHRONOUS) {
         return asynchronous_totals_object(&summary->asynchronous, good);
     }
@@ -151,16 +231,26 @@ static json_t *totals_object(const cipc_run_summary *summary, bool *good)
     return object;
 }
 
-static json_t *seconds_object(const cipc_run_summary *summary, bool *good)
+static void put_phases(json_t *object, const cipc_run_summary *summary, bool *good)
 {
-    json_t *object = json_object();
     const bool asynchronous = summary->method == CIPC_METHOD_ASYNCHRONOUS;
+    if (summary->method == CIPC_METHOD_MASS_SPRING) {
+        cipc_json_put(object, "step", cipc_json_number(summary->massspring.step_seconds), good);
+        cipc_json_put(object, "monitor", cipc_json_number(summary->massspring.monitor_seconds), good);
+        return;
+    }
     for (int i = 0; asynchronous && i < CIPC_ASYNCHRONOUS_PHASE_COUNT; i++) {
         cipc_json_put(object, cipc_asynchronous_phase_name((cipc_asynchronous_phase)i), cipc_json_number(summary->asynchronous.seconds[i]), good);
     }
     for (int i = 0; !asynchronous && i < CIPC_PHASE_COUNT; i++) {
         cipc_json_put(object, cipc_phase_name((cipc_phase)i), cipc_json_number(summary->seconds_by_phase[i]), good);
     }
+}
+
+static json_t *seconds_object(const cipc_run_summary *summary, bool *good)
+{
+    json_t *object = json_object();
+    put_phases(object, summary, good);
     cipc_json_put(object, "output", cipc_json_number(summary->output_seconds), good);
     cipc_json_put(object, "total", cipc_json_number(summary->seconds), good);
     return object;

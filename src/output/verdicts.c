@@ -52,6 +52,10 @@ const char *cipc_run_summary_verdict(const cipc_run_summary *summary, int invari
     if (violated_invariant(summary->status) == invariant) {
         return "violated";
     }
+    const bool counted = summary->method == CIPC_METHOD_MASS_SPRING && invariant <= 2 && summary->massspring.frames > 0;
+    if (counted) {
+        return summary->monitored ? "counted" : "not checked";
+    }
     const bool undecided = summary->status == CIPC_E_INDETERMINATE && invariant < 6;
     return summary->monitored && !undecided && points_passed(summary, invariant) > 0 ? "holds" : "not checked";
 }

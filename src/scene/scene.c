@@ -9,6 +9,7 @@
 #include "scene/dirichlet_sets.h"
 #include "scene/json_text.h"
 #include "scene/loads.h"
+#include "scene/massspring.h"
 #include "scene/method.h"
 #include "scene/overrides.h"
 #include "scene/pairs.h"
@@ -75,6 +76,7 @@ static void build(scene_reader *r, const scene_cursor *root, const scene_bodies 
     scene_read_dirichlet(r, root, bodies, scene->model);
     scene_read_loads(r, root, bodies, scene->model);
     scene_check_method(r, root, bodies, scene);
+    scene_check_colliders(r, root, scene);
     read_subject(r, root, bodies, scene);
 }
 
@@ -83,7 +85,7 @@ static void read_scene(scene_reader *r, cipc_scene *scene)
     static const char *const keys[] = {"method",   "title",       "size",            "sizes",      "compat",    "time_step",  "steps",
                                        "gravity",  "seed",        "integrator",      "newton",     "contact",   "bodies",     "friction",
                                        "stitches", "quasistatic", "strain_coupling", "collisions", "dirichlet", "monitor",    "output",
-                                       "loads",    "asynchronous", NULL};
+                                       "loads",    "asynchronous", "mass_spring",     "colliders",  NULL};
     double gravity[3];
     scene_bodies bodies = {0};
     scene_cursor root = scene_root(r->root);
@@ -149,5 +151,6 @@ void cipc_scene_destroy(cipc_scene *scene)
     cipc_free(scene->title);
     cipc_free(scene->resolved);
     cipc_free(scene->camera_subject);
+    cipc_free(scene->colliders);
     cipc_free(scene);
 }

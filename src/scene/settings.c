@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "scene/asynchronous.h"
+#include "scene/massspring.h"
 #include "scene/method.h"
 
 static const double gravity_default[3] = {0, -9.81, 0};            /* m/s^2 */
@@ -90,6 +91,13 @@ static void read_contact(scene_reader *r, const scene_cursor *root, cipc_implici
     options->ccd.max_iterations = scene_integer(r, &contact, "ccd_iterations", options->ccd.max_iterations, 1, INT_MAX);
 }
 
+/* How far the contact of the scene's method reaches, m. */
+static double contact_range(const cipc_scene *scene)
+{
+    if (scene->method == CIPC_METHOD_MASS_SPRING) return scene->massspring.threshold;
+    return scene->method == CIPC_METHOD_ASYNCHRONOUS ? scene->asynchronous.thickness : scene->options.contact.dhat;
+}
+
 static void read_monitor(scene_reader *r, const scene_cursor *root, cipc_scene *scene)
 {
     static const char *const keys[] = {"enabled", "swept", "reach", NULL};
@@ -97,8 +105,7 @@ static void read_monitor(scene_reader *r, const scene_cursor *root, cipc_scene *
     if (!scene_is_object(r, &monitor, keys)) return;
     scene->monitor = scene_boolean(r, &monitor, "enabled", true);
     scene->monitor_swept = scene_boolean(r, &monitor, "swept", true);
-    const double reach = scene->method == CIPC_METHOD_ASYNCHRONOUS ? scene->asynchronous.thickness : scene->options.contact.dhat;
-    scene->monitor_reach = scene_number(r, &monitor, "reach", reach, scene_not_negative);
+    scene->monitor_reach = scene_number(r, &monitor, "reach", contact_range(scene), scene_not_negative);
 }
 
 static void read_output(scene_reader *r, const scene_cursor *root, cipc_scene *scene)
@@ -145,6 +152,8 @@ void scene_read_settings(scene_reader *r, const scene_cursor *root, cipc_scene *
     read_newton(r, root, options);
     read_contact(r, root, options);
     scene_read_asynchronous(r, root, options, &scene->asynchronous);
+    scene_read_massspring(r, root, options->time_step, &scene->massspring);
+    scene_read_colliders(r, root, scene);
     read_monitor(r, root, scene);
     read_output(r, root, scene);
 }

@@ -915,6 +915,92 @@ static void test_asynchronous_refusals(void **state)
     assert_message(&o, 2, "CIPC-2012", "method");
 }
 
+/* Cloth that falls on a ball. */
+static const char springs[] = SCENE("\"method\": \"mass-spring\", \"colliders\": [{\"name\": \"ball\", \"sphere\": {\"center\": [0, 0, 0], \"radius\": 0.1}}], ",
+                                    "{\"name\": \"cloth\", \"material\": \"cotton\", \"membrane\": {\"model\": \"springs\", \"young\": 1e5}, \"velocity\": [0, -1, 0], \"shell\": {\"grid\": "
+                                    "{\"size\": [0.2, 0.2], \"cells\": [2, 2]}}, \"transform\": {\"translate\": [0.01, 0.11, 0.02]}}");
+
+static void test_mass_spring_run(void **state)
+{
+    const fixture *f = *state;
+    const path verdicts = path_in(&f->folder, "verdicts.xml"), stats = path_in(&f->out, "stats.jsonl"), last = path_in(&f->out, "obj/frame_00005.obj");
+    file_write(&f->scene, springs, strlen(springs));
+    const outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--obj", "--junit", verdicts.text, NULL);
+    assert_string_equal(o.err, "");
+    assert_int_equal(o.exit_status, 0);
+    for (int i = 0; i < RESULT_COUNT; i++) {
+        const path file = path_in(&f->out, result_names[i]);
+        assert_true(file_exists(&file));
+    }
+    assert_true(count_lines(&stats) == 5 && frames_of(f) == 6 && file_exists(&last));
+    assert_file_contains(&verdicts, "counted, not guaranteed by the method mass-spring: 0 of 5 frames");
+    json_t *summary = load_result(f, "summary.json");
+    static const char *const expected[8] = {"counted: 0 of 5 frames intersect", "counted: 0 of 5 frames are too near", "not checked", "not checked", "not checked: the method makes no claim about paths",
+                                            "not checked: explicit steps minimise no potential", "not checked: mass-spring steps", "holds"};
+    for (int i = 0; i < 8; i++) {
+        const char key[3] = {'M', (char)('1' + i), '\0'};
+        assert_string_equal(text_of(json_object_get(summary, "invariants"), key), expected[i]);
+    }
+    assert_true(json_integer_value(json_object_get(json_object_get(summary, "totals"), "hits")) > 0); /* it has come to the ball */
+    json_decref(summary);
+}
+
+/* Two layers thrown at each other pass through: frames are counted, the run goes on and ends well. */
+static void test_mass_spring_counts(void **state)
+{
+    const fixture *f = *state;
+    static const char thrown[] = SCENE("\"method\": \"mass-spring\", ",
+                                       "{\"name\": \"wall\", \"fixed\": true, \"material\": \"cotton\", \"shell\": {\"grid\": {\"size\": [1, 1], \"cells\": [1, 1]}}, \"transform\": {\"rotate\": "
+                                       "{\"axis\": [0, 0, 1], \"angle\": 1.5}}}, {\"name\": \"cloth\", \"material\": \"cotton\", \"membrane\": {\"model\": \"springs\"}, \"velocity\": [-6, 0, 0], "
+                                       "\"shell\": {\"grid\": {\"size\": [0.2, 0.2], \"cells\": [2, 2]}}, \"transform\": {\"translate\": [0.2, 0, 0.02]}}");
+    file_write(&f->scene, thrown, strlen(thrown));
+    const outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, NULL);
+    assert_string_equal(o.err, "");
+    assert_int_equal(o.exit_status, 0);
+    const path violation = path_in(&f->out, "violation.obj");
+    assert_false(file_exists(&violation));
+    json_t *summary = load_result(f, "summary.json");
+    const json_t *counted = json_object_get(json_object_get(json_object_get(summary, "monitors"), "counted"), "M1"), *first = json_object_get(counted, "first");
+    const json_int_t frames = json_integer_value(json_object_get(counted, "frames"));
+    assert_in_range(frames, 1, 4);
+    assert_int_equal(json_integer_value(json_object_get(first, "step")), 2); /* 0.1 m away at 0.06 m a step */
+    assert_non_null(strstr(text_of(first, "what"), "body \"wall\""));
+    assert_int_equal(json_integer_value(json_object_get(summary, "steps_taken")), 5);
+    json_decref(summary);
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--no-monitor", NULL).exit_status, 0);
+    summary = load_result(f, "summary.json");
+    assert_string_equal(text_of(json_object_get(summary, "invariants"), "M1"), "not checked");
+    json_decref(summary);
+    const outcome start = cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "bodies.cloth.transform.translate=[0,0,0]", NULL);
+    assert_message(&start, 2, "CIPC-2009", "the start: ");
+}
+
+static void test_mass_spring_refusals(void **state)
+{
+    const fixture *f = *state;
+    file_write(&f->scene, springs, strlen(springs));
+    outcome o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "colliders.ball.sphere.radius=0.2", NULL);
+    assert_message(&o, 2, "CIPC-2005", "starts inside of 'ball'");
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "mass_spring.step=0.01", "--set", "mass_spring.too_long=refuse", NULL);
+    assert_message(&o, 2, "CIPC-2005", "too long for these springs: at most");
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--set", "method=c-ipc", NULL);
+    assert_message(&o, 2, "CIPC-2005", "colliders are of the method mass-spring");
+    assert_nothing_written(f);
+    assert_int_equal(cipc(f, "run", f->scene.text, "-o", f->out.text, "--steps=2", NULL).exit_status, 0);
+    o = cipc(f, "run", f->scene.text, "-o", f->out.text, "--resume", NULL);
+    assert_message(&o, 2, "CIPC-2012", "the method mass-spring does not resume");
+    assert_int_equal(frames_of(f), 3); /* earlier results stay */
+}
+
+static void test_mass_spring_interruption(void **state)
+{
+    const fixture *f = *state;
+    file_write(&f->scene, springs, strlen(springs));
+    const outcome o = interrupt(f, SIGINT, 5);
+    assert_int_equal(o.exit_status, 1);
+    assert_non_null(strstr(o.err, "start again, the method mass-spring does not resume"));
+}
+
 static void test_resume_refusals(void **state)
 {
     const fixture *f = *state;
@@ -959,6 +1045,10 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_asynchronous_stall, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_asynchronous_interruptions, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_asynchronous_refusals, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_mass_spring_run, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_mass_spring_counts, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_mass_spring_refusals, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_mass_spring_interruption, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_resume_refusals, set_up, tear_down),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -214,6 +214,26 @@ static void test_verdicts_of_the_method_asynchronous(void **state)
     assert_cases(&s, "...S..S..", "not checked: the energy oscillates");
 }
 
+static void test_verdicts_of_the_method_mass_spring(void **state)
+{
+    (void)state;
+    cipc_run_summary s = good_run();
+    s.method = CIPC_METHOD_MASS_SPRING;
+    s.energy_checks = s.momentum_checks = 0;
+    s.limited_triangles = 0;
+    s.swept = false;
+    s.momentum_source = "mass-spring steps";
+    s.massspring.frames = 4;
+    assert_cases(&s, ".SSS.SSS.", "counted, not guaranteed by the method mass-spring: 0 of 4 frames");
+    s.massspring.intersecting = (cipc_counted){.frames = 3, .first_step = 2, .first = {.what = "edge 7 meets"}};
+    assert_cases(&s, ".SSS.SSS.", "3 of 4 frames; the first: edge 7 meets");
+    assert_cases(&s, ".SSS.SSS.", "not checked: the method mass-spring makes no claim about paths");
+    assert_cases(&s, ".SSS.SSS.", "not checked: explicit steps minimise no potential");
+    s.steps_taken = 3;
+    s.interrupted = true;
+    assert_cases(&s, "ESSS.SSS.", "interrupted after step 3 of 4; the method mass-spring does not resume");
+}
+
 static void test_verdicts_of_runs_that_went_wrong(void **state)
 {
     (void)state;
@@ -249,6 +269,7 @@ int main(void)
         cmocka_unit_test(test_against_the_library),        cmocka_unit_test(test_a_folder_that_is_not_there),
         cmocka_unit_test(test_out_of_memory),              cmocka_unit_test(test_verdicts_of_runs),
         cmocka_unit_test(test_verdicts_of_runs_that_went_wrong), cmocka_unit_test(test_verdicts_of_the_method_asynchronous),
+        cmocka_unit_test(test_verdicts_of_the_method_mass_spring),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

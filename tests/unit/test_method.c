@@ -21,6 +21,7 @@ static void test_names(void **state)
     (void)state;
     assert_string_equal(cipc_method_name(CIPC_METHOD_C_IPC), "c-ipc");
     assert_string_equal(cipc_method_name(CIPC_METHOD_ASYNCHRONOUS), "asynchronous");
+    assert_string_equal(cipc_method_name(CIPC_METHOD_MASS_SPRING), "mass-spring");
     assert_string_equal(cipc_method_name(CIPC_METHOD_COUNT), "unknown");
     assert_string_equal(cipc_method_name((cipc_method)-1), "unknown");
     reject_scene(SCENE("@\"method\": \"asynchronos\", ", "\"material\": \"wool\""), NULL, CIPC_E_OUT_OF_RANGE, "method", "'asynchronous'");
@@ -73,6 +74,35 @@ static void test_what_asynchronous_does_not_know(void **state)
     }
 }
 
+#define MASS_SPRING "\"method\": \"mass-spring\", "
+#define SPRINGS     "\"membrane\": {\"model\": \"springs\"}"
+/* The first body is fixed, whatever it is. */
+#define HUNG(root, body)                                                                                                                                   \
+    "{\"time_step\": 1, \"steps\": 1, " root "\"bodies\": [{\"name\": \"first\", \"fixed\": true, " GRID ", \"material\": \"wool\", \"strain_limit\": \"material\", "  \
+    "\"damping\": {\"mass\": 0.1}, \"transform\": {\"translate\": [0, 1, 0]}}, {\"name\": \"cloth\", " body "}]}"
+
+static void test_what_mass_spring_does_not_know(void **state)
+{
+    (void)state;
+    static const char good[] = HUNG("", GRID ", \"material\": \"wool\", " SPRINGS);
+    cipc_scene *s = accept_scene(good, "method=mass-spring");
+    cipc_scene_destroy(s);
+    const struct { const char *text, *path, *what; } cases[] = {
+        {HUNG(MASS_SPRING, GRID ", \"material\": \"wool\", " SPRINGS ", @\"strain_limit\": \"material\""), "bodies.cloth.strain_limit", "knows no strain limits"},
+        {HUNG(MASS_SPRING, GRID ", \"material\": \"wool\", \"membrane\": {@\"model\": \"stvk\"}"), "bodies.cloth.membrane.model", "whose membrane is springs"},
+        {HUNG(MASS_SPRING, GRID ", \"material\": \"wool\", " SPRINGS ", \"damping\": {@\"mass\": 0.1}"), "bodies.cloth.damping.mass", "knows no damping by mass"},
+        {HUNG(MASS_SPRING, "@\"volume\": {\"box\": {\"size\": [1, 1, 1], \"cells\": [1, 1, 1]}}, \"density\": 1, \"young\": 1, \"poisson\": 0"), "bodies.cloth.volume", "moves shells, and nothing else"},
+        {HUNG(MASS_SPRING "@\"quasistatic\": true, ", GRID ", \"material\": \"wool\", " SPRINGS), "quasistatic", "mass-spring knows no quasistatic steps"},
+        {HUNG(MASS_SPRING "@\"compat\": \"released\", ", GRID ", \"material\": \"wool\", " SPRINGS), "compat", "of the method c-ipc, not mass-spring"},
+        {HUNG(MASS_SPRING "@\"loads\": [{\"body\": \"cloth\", \"select\": {\"all\": true}, \"force\": [0, 0, 1]}], ", GRID ", \"material\": \"wool\", " SPRINGS), "loads", "knows no loads"},
+        {HUNG(MASS_SPRING "@\"friction\": [{\"between\": [\"first\", \"cloth\"], \"mu\": 0.1}], ", GRID ", \"material\": \"wool\", " SPRINGS), "friction", "no friction between two bodies"},
+        {HUNG("@\"colliders\": [{\"name\": \"floor\", \"plane\": {\"point\": [0, -1, 0], \"normal\": [0, 1, 0]}}], ", GRID ", \"material\": \"wool\""), "colliders", "of the method mass-spring"},
+        {HUNG(ASYNCHRONOUS "@\"colliders\": [{\"name\": \"floor\", \"plane\": {\"point\": [0, -1, 0], \"normal\": [0, 1, 0]}}], ", GRID ", \"material\": \"wool\""), "colliders", "of the method mass-spring"},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) reject_scene(cases[i].text, NULL, CIPC_E_OUT_OF_RANGE, cases[i].path, cases[i].what);
+    reject_scene(HUNG(MASS_SPRING, GRID ", \"material\": \"wool\""), NULL, CIPC_E_OUT_OF_RANGE, "bodies.cloth.membrane", "whose membrane is springs"); /* by default it is not */
+}
+
 static void test_fixed_bodies(void **state)
 {
     (void)state;
@@ -103,6 +133,7 @@ int main(void)
         cmocka_unit_test(test_what_both_know),
         cmocka_unit_test(test_what_c_ipc_does_not_know),
         cmocka_unit_test(test_what_asynchronous_does_not_know),
+        cmocka_unit_test(test_what_mass_spring_does_not_know),
         cmocka_unit_test(test_fixed_bodies),
         cmocka_unit_test(test_remedies),
     };

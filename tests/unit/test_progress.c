@@ -80,6 +80,24 @@ static void test_the_method_asynchronous(void **state)
     }
 }
 
+static void test_the_method_mass_spring(void **state)
+{
+    (void)state;
+    const cipc_massspring_report report = {.substeps = 21, .contacts = 34, .hits = 55, .deformation = 0.0625};
+    const cipc_massspring_times times[] = {{.frame = 0.5, .step = 0.25}, {.frame = 0.5}};
+    static const char *const parts[2][6] = {{"step 3/100", "t 0.03 s", "substeps 21  contacts 34  hits 55", "deformation 0.0625", "real time 2.00e+00 x", "left 1:05"},
+                                            {"\r\033[K", "", "", "", "real time -", "left -"}};
+    for (int i = 0; i < 2; i++) {
+        line l = {{0}};
+        FILE *terminal = tmpfile();
+        cipc_massspring_progress_line(terminal, 3, 100, 0.03, &report, &times[i], i == 0 ? 65 : NAN);
+        rewind(terminal);
+        assert_in_range(fread(l.text, 1, sizeof l.text - 1, terminal), 1, sizeof l.text - 1);
+        fclose(terminal);
+        for (int k = 0; k < 6; k++) assert_shows(&l, parts[i][k]);
+    }
+}
+
 static void test_clear(void **state)
 {
     (void)state;
@@ -98,6 +116,7 @@ int main(void)
         cmocka_unit_test(test_ordinary_numbers),
         cmocka_unit_test(test_odd_numbers),
         cmocka_unit_test(test_the_method_asynchronous),
+        cmocka_unit_test(test_the_method_mass_spring),
         cmocka_unit_test(test_clear),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

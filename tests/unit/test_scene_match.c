@@ -70,6 +70,19 @@ static void test_the_method_asynchronous(void **state)
     assert_string_equal(path, "events");
 }
 
+/* Of the method mass-spring its block and its colliders count; of no other, whose older scenes do not have them. */
+static void test_the_method_mass_spring(void **state)
+{
+    (void)state;
+    static const char one[] = "{\"method\": \"mass-spring\", \"mass_spring\": {\"step\": 1}, \"colliders\": [{\"name\": \"a\"}]}", older[] = "{\"method\": \"c-ipc\"}";
+    char path[64];
+    assert_false(cipc_scene_match(one, "{\"method\": \"mass-spring\", \"mass_spring\": {\"step\": 2}, \"colliders\": [{\"name\": \"a\"}]}", path, sizeof path));
+    assert_string_equal(path, "mass_spring.step");
+    assert_false(cipc_scene_match(one, "{\"method\": \"mass-spring\", \"mass_spring\": {\"step\": 1}, \"colliders\": [{\"name\": \"b\"}]}", path, sizeof path));
+    assert_string_equal(path, "colliders.0.name");
+    assert_true(cipc_scene_match(older, "{\"method\": \"c-ipc\", \"mass_spring\": {\"step\": 1}, \"colliders\": []}", path, sizeof path));
+}
+
 /* The block is of that method only, and an older program's scene does not have it. */
 static void test_the_block_of_another_method(void **state)
 {
@@ -116,7 +129,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_order_and_layout_do_not_matter), cmocka_unit_test(test_members_that_change_no_frame),
         cmocka_unit_test(test_first_difference_is_named),      cmocka_unit_test(test_steps_count_below_the_root),
-        cmocka_unit_test(test_the_method_asynchronous),        cmocka_unit_test(test_the_block_of_another_method),
+        cmocka_unit_test(test_the_method_asynchronous), cmocka_unit_test(test_the_method_mass_spring),        cmocka_unit_test(test_the_block_of_another_method),
         cmocka_unit_test(test_text_that_is_not_json),          cmocka_unit_test(test_long_path_is_cut),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

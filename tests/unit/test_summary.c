@@ -238,6 +238,45 @@ static void test_fields_of_the_method_asynchronous(void **state)
     json_decref(o);
 }
 
+/* M1 and M2 are counted, never said to hold. */
+static void test_fields_of_the_method_mass_spring(void **state)
+{
+    (void)state;
+    cipc_run_summary s = good_run();
+    s.method = CIPC_METHOD_MASS_SPRING;
+    s.swept = false;
+    s.energy_checks = 0;
+    s.massspring = (cipc_massspring_totals){.frames = 9, .intersecting = {.frames = 2, .first_step = 5, .first = {.what = "edge 7 meets"}}, .substeps = 90, .hits = 8, .iterations = 24, .sweeps = 7,
+                                            .reversals = 6, .max_self_contacts = 3, .max_deformation = 0.0625, .frame_seconds = 3, .step_seconds = 2, .monitor_seconds = 4};
+    json_t *o = written(&s);
+    assert_string_equal(json_string_value(at(o, "method")), "mass-spring");
+    assert_string_equal(json_string_value(at(o, "invariants.M1")), "counted: 2 of 9 frames intersect");
+    assert_string_equal(json_string_value(at(o, "invariants.M2")), "counted: 0 of 9 frames are too near");
+    assert_string_equal(json_string_value(at(o, "invariants.M5")), "not checked: the method makes no claim about paths");
+    assert_string_equal(json_string_value(at(o, "invariants.M6")), "not checked: explicit steps minimise no potential");
+    assert_string_equal(json_string_value(at(o, "invariants.M8")), "holds");
+    const struct { const char *key; int count; } counts[] = {{"monitors.counted.frames", 9}, {"monitors.counted.M1.frames", 2}, {"monitors.counted.M1.first.step", 5}, {"monitors.counted.M2.frames", 0},
+                                                             {"totals.substeps", 90}, {"totals.hits", 8}, {"totals.bisection_iterations", 24}, {"totals.sweeps", 7}, {"totals.reversals", 6},
+                                                             {"extremes.max_self_contacts", 3}};
+    for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        assert_int_equal(json_integer_value(at(o, counts[i].key)), counts[i].count);
+    }
+    assert_string_equal(json_string_value(at(o, "monitors.counted.M1.first.what")), "edge 7 meets");
+    assert_true(json_is_null(at(o, "monitors.counted.M2.first")));
+    assert_true(json_real_value(at(o, "totals.real_time_factor")) == 1.5 && json_real_value(at(o, "extremes.max_deformation")) == 0.0625);
+    assert_true(json_real_value(at(o, "seconds.step")) == 2 && json_real_value(at(o, "seconds.monitor")) == 4 && json_real_value(at(o, "monitors.seconds")) == 4);
+    assert_null(json_object_get(at(o, "totals"), "newton_iterations"));
+    json_decref(o);
+    s.monitored = false; /* one step without is enough */
+    o = written(&s);
+    assert_string_equal(json_string_value(at(o, "invariants.M1")), "not checked");
+    json_decref(o);
+    s = good_run(); /* nothing of it where another method ran */
+    o = written(&s);
+    assert_null(json_object_get(at(o, "monitors"), "counted"));
+    json_decref(o);
+}
+
 /* Of momentum the file says why there is no verdict, or by how much it changed at most. */
 static void test_momentum(void **state)
 {
@@ -357,7 +396,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_verdicts_of_good_runs), cmocka_unit_test(test_verdicts_of_violations),
-        cmocka_unit_test(test_verdicts_of_the_method_asynchronous), cmocka_unit_test(test_fields_of_the_method_asynchronous),
+        cmocka_unit_test(test_verdicts_of_the_method_asynchronous), cmocka_unit_test(test_fields_of_the_method_mass_spring), cmocka_unit_test(test_fields_of_the_method_asynchronous),
         cmocka_unit_test(test_fields), cmocka_unit_test(test_momentum), cmocka_unit_test(test_counts_of_the_model), cmocka_unit_test(test_failed_run),
         cmocka_unit_test(test_interrupted_and_unmonitored_run), cmocka_unit_test(test_adding_steps),
         cmocka_unit_test(test_unwritable),
