@@ -52,3 +52,22 @@ void massspring_respond(cipc_massspring *s, int node, double x[3], double v[3])
     s->contacts[node].impulse += s->model->mass[node] * take_inward(v, normal);
     slide_on(s, x, d, 1 - hit.t, normal);
 }
+
+/* Bodies that overlap push a node from one into the other: so many turns, and what is then still inside stays. */
+enum { TURNS = 4 };
+
+void massspring_leave_bodies(cipc_massspring *s, int node, double x[3], double v[3])
+{
+    bool inside = true;
+    for (int turn = 0; turn < TURNS && inside; turn++) {
+        inside = false;
+        for (int c = 0; c < s->collider_count; c++) {
+            double normal[3];
+            const double distance = cipc_collider_distance(&s->colliders[c], x, normal);
+            if (distance >= 0) continue;
+            v3_axpy(x, 0.5 * s->options.threshold - distance, normal);
+            s->contacts[node].impulse += s->model->mass[node] * take_inward(v, normal);
+            inside = true;
+        }
+    }
+}

@@ -207,7 +207,10 @@ static void bound_deformation(cipc_massspring *s, double *x, double *v)
         cipc_deformation_adjust(s->springs, ends, s->structural_count, s->options.deformation, x);
         return;
     }
-    s->report.sweeps += cipc_deformation_project(s->springs, ends, s->structural_count, s->options.deformation, 1e-3, s->options.sweeps, s->inverse_mass, s->h, x, v, NULL);
+    const int sweeps = cipc_deformation_project(s->springs, ends, s->structural_count, s->options.deformation, 1e-3, s->options.sweeps, s->inverse_mass, s->h, x, v, NULL);
+    s->report.sweeps += sweeps;
+    for (int i = 0; i < s->model->node_count && sweeps > 0; i++)
+        if (s->inverse_mass[i] > 0) massspring_leave_bodies(s, i, x + 3 * i, v + 3 * i);
 }
 
 static cipc_status substep(cipc_massspring *s, double time, double *x, double *v, cipc_error *error)

@@ -40,5 +40,8 @@ void massspring_forces(cipc_massspring *s, const double *x, const double *v);
 cipc_status massspring_self_forces(cipc_massspring *s, const double *x, const double *v, cipc_error *error);
 /* response.c: a node's way of a substep, cut where it would lead into a body; its velocity loses what goes inward. */
 void massspring_respond(cipc_massspring *s, int node, double x[3], double v[3]);
+/* response.c: a node that the bound on deformation has moved into a body goes out to where there is contact; its velocity loses what goes inward. Bisection begins outside: from inside
+ * a node would never move again, whatever its velocity becomes. */
+void massspring_leave_bodies(cipc_massspring *s, int node, double x[3], double v[3]);
 
 #endif

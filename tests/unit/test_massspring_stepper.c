@@ -148,6 +148,26 @@ static void test_cloth_on_a_ball(void **state)
     finish(&c);
 }
 
+/* Bounded cloth is pulled into the ball that it hangs on, and out of it again: no node is inside after a step, where it would be stuck and gather speed. */
+static void test_the_bound_leaves_no_node_inside(void **state)
+{
+    (void)state;
+    cloth c;
+    start(&c, 0.12, 0);
+    c.collider = (cipc_collider){.kind = CIPC_COLLIDER_SPHERE, .half = {0.1}, .friction = 1};
+    c.collider_count = 1;
+    c.options.deformation = 0.01;
+    build(&c);
+    int sweeps = 0;
+    for (int k = 0; k < 60; k++) {
+        steps(&c, 1);
+        sweeps += c.report.sweeps;
+        for (int i = 0; i < c.sheet.model->node_count; i++) assert_true(cipc_collider_distance(&c.collider, c.sheet.state->position + 3 * i, NULL) >= 0);
+    }
+    assert_true(sweeps > 0);
+    finish(&c);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -168,7 +188,8 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_free_fall), cmocka_unit_test(test_long_steps), cmocka_unit_test(test_sliding_stops), cmocka_unit_test(test_cloth_on_a_ball), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_free_fall), cmocka_unit_test(test_long_steps), cmocka_unit_test(test_sliding_stops), cmocka_unit_test(test_cloth_on_a_ball),
+        cmocka_unit_test(test_the_bound_leaves_no_node_inside), cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
