@@ -1,6 +1,7 @@
 /* Which method takes the steps, and what it cannot do. */
 #include "scene/method.h"
 
+#include <math.h>
 #include <stdio.h>
 
 #include "scene/body_kind.h"
@@ -53,7 +54,7 @@ static void check_massspring_body(scene_reader *r, const scene_cursor *body, con
     if (description->kind != CIPC_BODY_SHELL)
         refuse(r, &mesh, "the method mass-spring moves shells, and nothing else", "make it \"fixed\": true, or use another method");
     snprintf(remedy, sizeof remedy, "--set bodies.%s.strain_limit=null takes it away; mass_spring.deformation.bound limits springs", name);
-    if (m->strain_limit > 0 || m->strain_lower_limit > 0) refuse(r, &limit, "the method mass-spring knows no strain limits", remedy);
+    if (fmax(m->strain_limit, m->strain_lower_limit) > 0) refuse(r, &limit, "the method mass-spring knows no strain limits", remedy);
     snprintf(remedy, sizeof remedy, "--set bodies.%s.membrane.model=springs", name);
     if (m->membrane != CIPC_MEMBRANE_SPRINGS) refuse(r, membrane.value == NULL ? &mesh : &model, "the method mass-spring moves shells whose membrane is springs", remedy);
     if (m->damping_mass > 0) refuse(r, &mass, "the method mass-spring knows no damping by mass", "leave it out; damping.stiffness is known");
