@@ -66,7 +66,8 @@ void massspring_leave_bodies(cipc_massspring *s, int node, double x[3], double v
             const double distance = cipc_collider_distance(&s->colliders[c], x, normal);
             if (distance >= 0) continue;
             v3_axpy(x, 0.5 * s->options.threshold - distance, normal);
-            s->contacts[node].impulse += s->model->mass[node] * take_inward(v, normal);
+            const double lost = take_inward(v, normal);
+            s->contacts[node].impulse += s->model->mass[node] * lost;
             inside = true;
         }
     }
