@@ -43,6 +43,8 @@ void golden_assert_monitored(const scene_outcome *o)
     if (o->method == CIPC_METHOD_ASYNCHRONOUS) {
         assert_true(o->points == o->steps && o->windows >= o->steps);
         assert_true(o->momentum_checks == 0 || o->momentum_checks == o->steps);
+    } else if (o->method == CIPC_METHOD_MASS_SPRING) {
+        assert_true(o->points == o->steps && o->intersecting <= o->steps && o->too_near == 0);
     } else {
         assert_true(o->energy_checks > 0 && o->energy_checks <= o->points);
     }
@@ -59,6 +61,11 @@ void golden_print_figures(const char *name, const scene_outcome *o)
                       "exact gap checks %ld, paths %ld, of which exact %ld\n",
                       name, o->steps, o->node_count, o->points, o->windows, o->last.impulses[0], o->max_contacts, o->max_layers, o->min_gap, o->max_stretch, o->exact_gap_checks,
                       o->paths_checked, o->exact_path_checks);
+        return;
+    }
+    if (o->method == CIPC_METHOD_MASS_SPRING) {
+        print_message("%s: %d steps, %d nodes, %ld frames checked, of which %ld intersect, at most %d contacts, largest stretch %.7f, last deformation %.7f\n", name, o->steps, o->node_count,
+                      o->points, o->intersecting, o->max_contacts, o->max_stretch, o->last.deformation[0]);
         return;
     }
     print_message("%s: %d steps, %d nodes, %ld points checked, %ld with energies, %.0f Newton iterations, at most %d contacts, min gap %.3g m, "

@@ -55,19 +55,44 @@ static void visit_loads(json_t *root, visitor *visit, void *context)
     }
 }
 
-/* What contact is made of. */
-static void visit_contact(json_t *root, visitor *visit, void *context)
+/* What the method asynchronous has of its own. */
+static void visit_asynchronous(json_t *root, visitor *visit, void *context)
 {
     static const char *const keys[] = {"thickness", "stiffness", "restitution"};
-    const char *method = json_string_value(json_object_get(root, "method"));
-    if (method == NULL || strcmp(method, "asynchronous") != 0) {
-        visit(context, "dhat", NULL, json_object_get(root, "contact"), "dhat");
-        return;
-    }
     for (size_t k = 0; k < sizeof keys / sizeof keys[0]; k++) {
         visit(context, keys[k], NULL, json_object_get(root, "asynchronous"), keys[k]);
     }
     visit_loads(root, visit, context);
+}
+
+/* And what mass-spring has. */
+static void visit_massspring(json_t *root, visitor *visit, void *context)
+{
+    static const char *const places[][3] = {
+        {"bending springs", "bending", "stiffness"}, {"bound", "deformation", "bound"}, {"wind", "wind", "pressure"}, {"presliding", "friction", "presliding"},
+    };
+    size_t i;
+    json_t *collider, *settings = json_object_get(root, "mass_spring");
+    for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
+        visit(context, places[k][0], NULL, json_object_get(settings, places[k][1]), places[k][2]);
+    }
+    json_array_foreach(json_object_get(root, "colliders"), i, collider)
+    {
+        visit(context, "friction", json_string_value(json_object_get(collider, "name")), collider, "friction");
+    }
+}
+
+/* What contact is made of, and what else only the method has. */
+static void visit_method(json_t *root, visitor *visit, void *context)
+{
+    const char *method = json_string_value(json_object_get(root, "method"));
+    if (method != NULL && strcmp(method, "asynchronous") == 0) {
+        visit_asynchronous(root, visit, context);
+    } else if (method != NULL && strcmp(method, "mass-spring") == 0) {
+        visit_massspring(root, visit, context);
+    } else {
+        visit(context, "dhat", NULL, json_object_get(root, "contact"), "dhat");
+    }
 }
 
 static void visit_all(json_t *root, visitor *visit, void *context)
@@ -75,7 +100,7 @@ static void visit_all(json_t *root, visitor *visit, void *context)
     size_t i;
     json_t *stitch;
     visit(context, "gravity", NULL, root, "gravity");
-    visit_contact(root, visit, context);
+    visit_method(root, visit, context);
     visit_friction(root, visit, context);
     visit_moduli(root, visit, context);
     json_array_foreach(json_object_get(root, "stitches"), i, stitch)

@@ -1,7 +1,8 @@
 /* Faults of 1 %, derived from a scene as resolved: the physics that golden bands have to notice. One fault changes one coefficient wherever
  * it stands: gravity; the barrier's range dhat; each distinct coefficient of friction; of the bodies that are not fixed each distinct modulus
  * of membrane, bending, strain limit, rods and volumes, and each distinct time of stiffness damping; each distinct stiffness of stitches. Of the
- * method asynchronous not dhat, but eta(1), r(1) if it is given, restitution, and each distinct load. */
+ * method asynchronous not dhat, but eta(1), r(1) if it is given, restitution, and each distinct load; of mass-spring the stiffness of bending springs, the bound
+ * on deformation, the pressure of wind, the displacement before sliding, and each distinct friction of colliders. */
 #ifndef SUPPORT_SCENE_FAULT_H
 #define SUPPORT_SCENE_FAULT_H
 

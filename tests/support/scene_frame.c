@@ -162,3 +162,12 @@ scene_frame scene_frame_of_asynchronous(const scene_step *s, const cipc_asynchro
     measure(s, &f);
     return f;
 }
+
+scene_frame scene_frame_of_massspring(const scene_step *s, const cipc_massspring_report *r)
+{
+    scene_frame f = {
+        .kinetic = {r->kinetic}, .gravitational = {r->gravitational}, .elastic = {r->elastic}, .contacts = {r->contacts}, .deformation = {r->deformation},
+    };
+    measure(s, &f);
+    return f;
+}

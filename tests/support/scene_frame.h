@@ -5,11 +5,12 @@
 #include "cipc/asynchronous.h"
 #include "cipc/implicit.h"
 #include "cipc/invariant.h"
+#include "cipc/massspring.h"
 #include "cipc/model.h"
 
 /* X(name, numbers, unit). "Moving nodes" are those of bodies that are not fixed; `min_gap` and the stretches are of the state after the step;
  * membrane to friction are the terms of the incremental potential, `elastic` the energy itself (docs/formats.md, stats.jsonl). What the method
- * does not have is 0: of asynchronous the terms of the incremental potential and Newton iterations, of c-ipc what comes after these. Of asynchronous only
+ * does not have is 0: of asynchronous and mass-spring the terms of the incremental potential and Newton iterations, of c-ipc what comes after these. Of asynchronous only
  * such numbers are taken as follow from the trajectory: not how many events it took to see that nothing was to be done. */
 #define SCENE_QUANTITIES(X)                                                                                                          \
     X(centre_of_mass, 3, "m")   /* of the moving nodes */                                                                            \
@@ -33,11 +34,12 @@
     X(min_gap, 1, "m")          /* d - xi of the nearest pair; the monitor's reach when none is nearer */                            \
     X(largest_stretch, 1, "1")  /* of triangles; 0: none has a membrane or a limit */                                                \
     X(segment_stretch, 1, "1")  /* of rods; 0: none */                                                                               \
-    X(contacts, 1, "1")         /* active stencils; asynchronous: pairs within the monitor's reach, which is eta(1) */               \
+    X(contacts, 1, "1")         /* active stencils; asynchronous: pairs within the monitor's reach, which is eta(1); mass-spring: nodes on bodies */               \
     X(newton_iterations, 1, "1") /* of all steps so far */                                                                           \
     X(contact, 1, "J")          /* asynchronous: of all layers */                                                                    \
     X(layers, 1, "1")           /* the deepest that was active in the step */                                                        \
-    X(impulses, 1, "1")         /* ticks of layers that did something, in all steps so far */
+    X(impulses, 1, "1")         /* ticks of layers that did something, in all steps so far */                           \
+    X(deformation, 1, "1")      /* mass-spring: largest B of its springs */
 
 /* Doubles and nothing else, so that a frame is also an array of SCENE_NUMBERS. */
 typedef struct scene_frame {
@@ -78,5 +80,6 @@ typedef struct scene_step {
 } scene_step;
 scene_frame scene_frame_of(const scene_step *step, const cipc_step_report *report);
 scene_frame scene_frame_of_asynchronous(const scene_step *step, const cipc_asynchronous_report *report);
+scene_frame scene_frame_of_massspring(const scene_step *step, const cipc_massspring_report *report);
 
 #endif

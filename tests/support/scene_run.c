@@ -1,5 +1,5 @@
-/* The loop of src/cli (simulation.c, steps.c) without its files: load, check the start, step; what the two methods do is in scene_run_implicit.c and
- * scene_run_asynchronous.c. */
+/* The loop of src/cli (simulation.c, steps.c) without its files: load, check the start, step; what each method does is in scene_run_implicit.c,
+ * scene_run_asynchronous.c and scene_run_massspring.c. */
 #include "support/scene_running.h"
 
 #include <math.h>
@@ -24,6 +24,11 @@ void scene_take_in(scene_running *r, const cipc_invariant_report *report)
     o->exact_strain_checks += report->exact_strain_checks;
     o->paths_checked += report->paths_checked;
     o->exact_path_checks += report->exact_path_checks;
+}
+
+static const scene_method *method_of(cipc_method method)
+{
+    return method == CIPC_METHOD_ASYNCHRONOUS ? &scene_asynchronous : method == CIPC_METHOD_MASS_SPRING ? &scene_massspring : &scene_implicit;
 }
 
 /* ---- The start -------------------------------------------------------------------------------------------------------------- */
@@ -84,7 +89,7 @@ static cipc_status open_run(scene_running *r, const scene_request *request, cipc
         status = cipc_monitor_check(r->monitor, scene->state->position, NULL, error);
     }
     if (status == CIPC_OK) {
-        r->method = scene->method == CIPC_METHOD_ASYNCHRONOUS ? &scene_asynchronous : &scene_implicit;
+        r->method = method_of(scene->method);
         status = r->method->begin(r, error);
     }
     return status;

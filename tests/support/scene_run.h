@@ -1,5 +1,6 @@
 /* A scene of tests/scenes run through the library as `cipc run` does it: every accepted point goes to the monitors, every step has to
- * converge; of the method asynchronous every frame and all paths in between go to the monitors. What comes out is what the golden bands
+ * converge; of the method asynchronous every frame and all paths in between go to the monitors; of mass-spring
+ * every frame, where intersections are counted. What comes out is what the golden bands
  * (golden.h) and the claims are about. */
 #ifndef SUPPORT_SCENE_RUN_H
 #define SUPPORT_SCENE_RUN_H
@@ -26,7 +27,8 @@ typedef struct scene_outcome {
     int probe[SCENE_PROBES];           /* the probes' nodes */
     int steps;                         /* taken, all converged */
     cipc_method method;
-    long points, energy_checks;        /* accepted points (frames of the method asynchronous) that the monitors looked at; those with comparable energies */
+    long points, energy_checks;        /* accepted points (frames of the methods asynchronous and mass-spring) that the monitors looked at; those with comparable energies */
+    long intersecting, too_near;       /* mass-spring: frames that break M1 and M2 */
     long windows, momentum_checks;     /* asynchronous: windows of paths that were looked at; steps whose momentum had to be kept */
     double min_gap;                    /* m: d - xi, smallest at any accepted point; INFINITY: nothing came within reach */
     double max_stretch, max_stretch_ratio; /* at any accepted point */

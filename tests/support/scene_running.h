@@ -5,6 +5,7 @@
 #include "cipc/asynchronous.h"
 #include "cipc/implicit.h"
 #include "cipc/invariant.h"
+#include "cipc/massspring.h"
 #include "support/scene_run.h"
 
 typedef struct scene_method scene_method;
@@ -19,6 +20,7 @@ typedef struct scene_running {
     cipc_stepper *stepper;            /* of c-ipc */
     long points_of_step;
     cipc_asynchronous *integrator;    /* of asynchronous */
+    cipc_massspring *springs;         /* of mass-spring */
     double energy;                    /* J, after the step before, without the gravitational one */
 } scene_running;
 
@@ -28,7 +30,7 @@ struct scene_method {
     cipc_status (*take)(scene_running *run, cipc_error *error);
     void (*end)(scene_running *run);
 };
-extern const scene_method scene_implicit, scene_asynchronous;
+extern const scene_method scene_implicit, scene_asynchronous, scene_massspring;
 
 /* What a good look at a state found goes to the outcome, and is what was seen last. */
 void scene_take_in(scene_running *run, const cipc_invariant_report *report);
