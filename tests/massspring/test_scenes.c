@@ -99,8 +99,11 @@ static void test_round_table(void **state)
 {
     (void)state;
     trial wind = run("round-table", NULL, NULL), calm = run("round-table", "mass_spring.wind.velocity=[0,0,0]", NULL);
+    trial gale = run("round-table", "mass_spring.wind.velocity=[12,0,0]", NULL);
     assert_true(wind.deepest >= 0 && wind.deepest < 2e-4 && wind.hits > 0);
     assert_true(mean_of(&wind, 0) > mean_of(&calm, 0) + 0.01); /* downwind */
+    assert_true(mean_of(&gale, 0) > mean_of(&wind, 0) + 0.01); /* further in stronger wind */
+    end(&gale);
     assert_true(mean_of(&wind, 1) > -0.35 && mean_of(&wind, 1) < 0.02);
     end(&wind);
     end(&calm);
