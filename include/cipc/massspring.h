@@ -159,9 +159,9 @@ cipc_massspring_options cipc_massspring_options_default(void);
 typedef struct cipc_massspring_report {
     int substeps;
     double substep;                /* s */
-    int contacts;                  /* nodes within the threshold of a body, at the end */
+    int contacts;                  /* nodes in contact with a body, in the last substep */
     long hits, iterations;         /* ways cut by bisection, and its evaluations */
-    int self_contacts;             /* pairs at the end */
+    int self_contacts;             /* pairs, in the last substep */
     int sweeps;                    /* of the projection, in all */
     double deformation;            /* B, at the end */
     double kinetic, gravitational, elastic; /* J, at the end */
@@ -169,8 +169,8 @@ typedef struct cipc_massspring_report {
 } cipc_massspring_report;
 
 typedef struct cipc_massspring cipc_massspring;
-/* Shells whose material has springs are cloth; other bodies that move are refused (CIPC_E_WRONG_TYPE). colliders are copied. CIPC_E_OUT_OF_RANGE on options out of range, and on a step
- * that is too long if it is to be refused: the error tells the longest. The model must outlive it. */
+/* Shells whose material has springs are cloth; other bodies that move are refused (CIPC_E_WRONG_TYPE). colliders are copied. CIPC_E_OUT_OF_RANGE on options out of range, on a step
+ * that is too long if it is to be refused (the error tells the longest), and on frames of more than a million substeps. The model must outlive it. */
 cipc_status cipc_massspring_create(cipc_massspring **integrator, const cipc_model *model, const cipc_collider *colliders, int collider_count, const cipc_massspring_options *options,
                                    cipc_error *error);
 void cipc_massspring_destroy(cipc_massspring *integrator);

@@ -10,6 +10,8 @@
 
 /* The stable step is that of springs; friction and repulsion are not in it. */
 static const double stable_fraction = 0.5;
+/* More substeps in a frame than anybody would wait for: the springs, or what was asked for, are beyond the method. */
+static const double most_substeps = 1e6;
 
 cipc_massspring_options cipc_massspring_options_default(void)
 {
@@ -115,7 +117,12 @@ static cipc_status choose_step(cipc_massspring *s, cipc_error *error)
     const double asked = s->options.step > 0 ? s->options.step : frame;
     if (!(stable > 0)) return no_memory(error);
     if (s->options.refuse && asked > stable) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a step of %g s is too long for these springs: at most %g s", asked, stable);
-    s->substeps = (int)ceil(frame / fmin(asked, stable) * (1 - 1e-12));
+    const double substeps = ceil(frame / fmin(asked, stable) * (1 - 1e-12));
+    if (!(substeps <= most_substeps)) {
+        cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a frame of %g s would take %g substeps; at most %g are allowed", frame, substeps, most_substeps);
+        return cipc_fail_remedy(error, "softer or heavier cloth, a longer mass_spring.step, or a shorter time_step");
+    }
+    s->substeps = (int)substeps;
     s->h = frame / s->substeps;
     return CIPC_OK;
 }

@@ -104,6 +104,21 @@ static void test_long_steps(void **state)
     finish(&c);
 }
 
+/* More substeps than an int holds were once none at all, and the run ended well without a step. */
+static void test_endless_frames_are_refused(void **state)
+{
+    (void)state;
+    cloth c;
+    start(&c, 1, 0);
+    c.options.step = 1e-30;
+    assert_int_equal(cipc_massspring_create(&c.integrator, c.sheet.model, NULL, 0, &c.options, &c.error), CIPC_E_OUT_OF_RANGE);
+    assert_non_null(strstr(c.error.what, "substeps"));
+    c.options.step = 0;
+    c.sheet.model->bodies[0].material.membrane_young = 1e40;
+    assert_int_equal(cipc_massspring_create(&c.integrator, c.sheet.model, NULL, 0, &c.options, &c.error), CIPC_E_OUT_OF_RANGE);
+    finish(&c);
+}
+
 /* A sheet that slides on a floor: after v0^2/(2 mu g) it is at rest, up to what it sinks and to the displacement before sliding; with every law that has no memory of more. */
 static void test_sliding_stops(void **state)
 {
@@ -188,7 +203,7 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_free_fall), cmocka_unit_test(test_long_steps), cmocka_unit_test(test_sliding_stops), cmocka_unit_test(test_cloth_on_a_ball),
+        cmocka_unit_test(test_free_fall), cmocka_unit_test(test_long_steps), cmocka_unit_test(test_endless_frames_are_refused), cmocka_unit_test(test_sliding_stops), cmocka_unit_test(test_cloth_on_a_ball),
         cmocka_unit_test(test_the_bound_leaves_no_node_inside), cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
