@@ -56,6 +56,10 @@ static cipc_status choose_steps(cipc_asynchronous *a, asynchronous_set *set, con
     for (int i = 0; i < set->count; i++) {
         const cipc_body *body = asynchronous_body_of(a->model, set->nodes + (size_t)i * (size_t)set->energy->nodes);
         const double h = stable_step(a, &body->material, largest_eigenvalue(a, set, i, shares, work));
+        if (asynchronous_is_too_short(a, h)) {
+            gsl_eigen_symm_free(work);
+            return cipc_fail(error, CIPC_E_OUT_OF_RANGE, body->name, "%s needs steps of %.3g s, more than %d in a frame: softer or heavier elements are needed", set->energy->name, h, ASYNCHRONOUS_MOST_TICKS);
+        }
         set->step[i] = a->options.clocks == CIPC_CLOCKS_NESTED ? nested_step(a->options.frame, h) : h;
     }
     gsl_eigen_symm_free(work);

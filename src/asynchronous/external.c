@@ -16,6 +16,8 @@ cipc_status asynchronous_external_create(cipc_asynchronous *a, cipc_error *error
     const cipc_asynchronous_options *o = &a->options;
     a->gravity_step = within_frame(o->frame, o->gravity_step > 0 ? o->gravity_step : o->frame / 16);
     a->script_step = within_frame(o->frame, o->script_step > 0 ? o->script_step : o->frame);
+    if (asynchronous_is_too_short(a, a->gravity_step) || asynchronous_is_too_short(a, a->script_step))
+        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "asynchronous", "gravity_step = %g, script_step = %g: more than %d ticks in a frame of %g s", o->gravity_step, o->script_step, ASYNCHRONOUS_MOST_TICKS, o->frame);
     a->gravity_event = asynchronous_queue_add(&a->queue, ASYNCHRONOUS_RANK_GRAVITY, 0, 0);
     a->script_event = asynchronous_queue_add(&a->queue, ASYNCHRONOUS_RANK_SCRIPT, 0, 0);
     if (a->gravity_event >= 0 && a->script_event >= 0) return CIPC_OK;

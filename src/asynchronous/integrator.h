@@ -200,6 +200,10 @@ struct cipc_asynchronous {
 /* Deepest layer that is ever made: eta(4095) is an eighth of eta(1). */
 enum { ASYNCHRONOUS_MOST_LAYERS = 4095 };
 
+/* No regular clock ticks more often in a frame: nobody would wait for it, and the ticks of a long run are still counted exactly. */
+enum { ASYNCHRONOUS_MOST_TICKS = 1000000000 };
+static inline bool asynchronous_is_too_short(const cipc_asynchronous *a, double h) { return !(h * ASYNCHRONOUS_MOST_TICKS >= a->options.frame); }
+
 /* Ranks of simultaneous events: certificates, script, gravity, forces inside bodies, layers from the outermost on. */
 enum { ASYNCHRONOUS_RANK_CELL = 0, ASYNCHRONOUS_RANK_SLAB, ASYNCHRONOUS_RANK_SCRIPT, ASYNCHRONOUS_RANK_GRAVITY, ASYNCHRONOUS_RANK_ELEMENTS,
     ASYNCHRONOUS_RANK_PENALTY = 64 };

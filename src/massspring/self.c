@@ -13,16 +13,10 @@ typedef struct search {
     int node;
 } search;
 
-static int compare_pairs(const void *p, const void *q)
-{
-    const long long a = *(const long long *)p, b = *(const long long *)q;
-    return (a > b) - (a < b);
-}
-
 static bool is_joined(const cipc_massspring *s, int a, int b)
 {
-    const long long wanted = (long long)(a < b ? a : b) * s->model->node_count + (a < b ? b : a);
-    return bsearch(&wanted, s->joined, (size_t)s->spring_count, sizeof wanted, compare_pairs) != NULL;
+    const long long wanted = massspring_join(s, a, b);
+    return bsearch(&wanted, s->joined, (size_t)s->spring_count, sizeof wanted, massspring_compare_joins) != NULL;
 }
 
 /* Half springs of the repulsion's stiffness, and Coulomb friction of what they push, at most what stops the sliding. */

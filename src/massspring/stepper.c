@@ -74,21 +74,12 @@ static cipc_status add_springs(cipc_massspring *s, int body, bool structural, ci
     return status;
 }
 
-static int compare_pairs(const void *p, const void *q)
-{
-    const long long a = *(const long long *)p, b = *(const long long *)q;
-    return (a > b) - (a < b);
-}
-
 static cipc_status list_joined(cipc_massspring *s, cipc_error *error)
 {
     s->joined = cipc_alloc((size_t)s->spring_count, sizeof *s->joined);
     if (!s->joined) return no_memory(error);
-    for (int k = 0; k < s->spring_count; k++) {
-        const int a = s->ends[k][0], b = s->ends[k][1];
-        s->joined[k] = (long long)(a < b ? a : b) * s->model->node_count + (a < b ? b : a);
-    }
-    qsort(s->joined, (size_t)s->spring_count, sizeof *s->joined, compare_pairs);
+    for (int k = 0; k < s->spring_count; k++) s->joined[k] = massspring_join(s, s->ends[k][0], s->ends[k][1]);
+    qsort(s->joined, (size_t)s->spring_count, sizeof *s->joined, massspring_compare_joins);
     return CIPC_OK;
 }
 

@@ -34,6 +34,14 @@ struct cipc_massspring {
     cipc_massspring_report report;
 };
 
+/* Two nodes as one number, the same in either order; and the order of such numbers. */
+static inline long long massspring_join(const cipc_massspring *s, int a, int b) { return (long long)(a < b ? a : b) * s->model->node_count + (a < b ? b : a); }
+static inline int massspring_compare_joins(const void *p, const void *q)
+{
+    const long long a = *(const long long *)p, b = *(const long long *)q;
+    return (a > b) - (a < b);
+}
+
 /* forces.c: all forces at x and v into s->force. */
 void massspring_forces(cipc_massspring *s, const double *x, const double *v);
 /* self.c: nodes of the cloth that are too near to each other. CIPC_E_OUT_OF_MEMORY. */

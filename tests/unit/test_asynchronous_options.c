@@ -143,10 +143,33 @@ static void test_names(void **state)
     assert_string_equal(cipc_asynchronous_phase_name(CIPC_ASYNCHRONOUS_PHASE_COUNT), "unknown");
 }
 
+/* Clocks that tick so often that nobody would wait for a frame, and that would overflow their count in a run taken up later. */
+static void test_endless_frames_are_refused(void **state)
+{
+    (void)state;
+    asynchronous_scene s;
+    one_particle(&s);
+    cipc_asynchronous_options o = s.options;
+    o.gravity_step = 1e-25;
+    assert_refused(&s, &o, "gravity_step");
+    o = s.options;
+    o.script_step = 1e-300;
+    assert_refused(&s, &o, "script_step");
+    asynchronous_scene_free(&s);
+    asynchronous_scene_init(&s);
+    const double a[3] = {0, 1, 0}, b[3] = {1, 1, 0}, c[3] = {0, 1, 1};
+    cipc_body_description *sheet = sheet_add_triangle(&s.sheet, "sheet", a, b, c);
+    sheet->material.membrane = CIPC_MEMBRANE_STVK;
+    sheet->material.membrane_young = 1e40;
+    asynchronous_scene_model(&s);
+    assert_refused(&s, &s.options, "membrane_stvk needs steps of");
+    asynchronous_scene_free(&s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_defaults), cmocka_unit_test(test_refusals), cmocka_unit_test(test_models_that_are_refused), cmocka_unit_test(test_stiffness_by_rule), cmocka_unit_test(test_names),
+        cmocka_unit_test(test_defaults), cmocka_unit_test(test_refusals), cmocka_unit_test(test_models_that_are_refused), cmocka_unit_test(test_stiffness_by_rule), cmocka_unit_test(test_names), cmocka_unit_test(test_endless_frames_are_refused),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
