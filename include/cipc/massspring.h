@@ -59,6 +59,8 @@ typedef struct cipc_spring {
 /* Signed force along the spring at distance r >= 0, N: positive pulls the ends together, negative pushes them apart; without damping. Continuous; the slope of an energy in every form.
  * To a few roundings of its value, of r - d near d. */
 double cipc_spring_tension(const cipc_spring *spring, double r);
+/* Energy at distance r > 0, J: 0 at d, its slope is the tension. */
+double cipc_spring_energy(const cipc_spring *spring, double r);
 /* Force on the first end, x = x0, x1 and v = v0, v1 (6 numbers each): tension and damping; that on the second is its opposite. Damping resists both lengthening and shortening, whatever
  * the form and its state. Ends at the same place: 0, there is no direction. */
 void cipc_spring_force(const cipc_spring *spring, const double x[6], const double v[6], double f[3]);

@@ -50,6 +50,31 @@ double cipc_spring_tension(const cipc_spring *spring, double r)
     return max2(linear, buckled(spring, r)); /* both are negative: the weaker push */
 }
 
+/* (5): k_b L kappa^2/2 = 2 k_b w/L, whose slope is (4). */
+static double buckled_energy(const cipc_spring *s, double r) { return 2 * s->bending * half_angle2((s->length - r) / s->length) / s->length; }
+
+/* Where the push of the buckled spring has become the weaker one, by bisection; the length if it is so at once, 0 if it never is. */
+static double give_way(const cipc_spring *s)
+{
+    double linear_rules = s->length, buckled_rules = 0; /* the push (4) begins at 12 k_b/L^2, the linear one at 0 */
+    if (!(buckled(s, 0) > -s->stiffness * s->length)) return 0;
+    for (double middle = 0.5 * s->length; middle > buckled_rules && middle < linear_rules; middle = 0.5 * (buckled_rules + linear_rules)) {
+        if (buckled(s, middle) > s->stiffness * (middle - s->length)) buckled_rules = middle;
+        else linear_rules = middle;
+    }
+    return buckled_rules;
+}
+
+double cipc_spring_energy(const cipc_spring *spring, double r)
+{
+    const double longer = r - spring->length, linear = 0.5 * spring->stiffness * longer * longer;
+    if (r >= spring->length || spring->form == CIPC_SPRING_LINEAR) return linear;
+    if (spring->form == CIPC_SPRING_TENSION) return 0;
+    const double from = give_way(spring);
+    if (r >= from) return linear;
+    return 0.5 * spring->stiffness * (from - spring->length) * (from - spring->length) + (buckled_energy(spring, r) - buckled_energy(spring, from));
+}
+
 void cipc_spring_force(const cipc_spring *spring, const double x[6], const double v[6], double f[3])
 {
     double along[3], approach[3];

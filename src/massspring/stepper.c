@@ -224,12 +224,6 @@ static cipc_status substep(cipc_massspring *s, double time, double *x, double *v
     return CIPC_OK;
 }
 
-static double potential_of(const cipc_spring *spring, double r)
-{
-    const double longer = r - spring->length;
-    return spring->form == CIPC_SPRING_TENSION && longer < 0 ? 0 : 0.5 * spring->stiffness * longer * longer;
-}
-
 static void measure(cipc_massspring *s, const double *x, const double *v)
 {
     cipc_massspring_report *r = &s->report;
@@ -241,7 +235,7 @@ static void measure(cipc_massspring *s, const double *x, const double *v)
     for (int k = 0; k < s->spring_count; k++) {
         double between[3];
         v3_sub(between, x + 3 * s->ends[k][1], x + 3 * s->ends[k][0]);
-        r->elastic += potential_of(&s->springs[k], v3_norm(between));
+        r->elastic += cipc_spring_energy(&s->springs[k], v3_norm(between));
     }
     r->deformation = cipc_deformation_greatest(s->springs, (const int(*)[2])s->ends, s->structural_count, x);
 }

@@ -143,6 +143,28 @@ static void test_force_is_minus_the_gradient(void **state)
     assert_gradient(&s, shortened, true);
 }
 
+/* The library's energy: nothing at rest, and between any two lengths the work of the tension, which is taken by Simpson's rule on steps so fine that the kink, where the spring gives way, costs no more than
+ * a step's length times the change of slope (some k) times a step: 1e-8 of k L^2. */
+static void test_energy_is_the_work(void **state)
+{
+    (void)state;
+    enum { STEPS = 10000 };
+    const cipc_spring_form forms[] = {CIPC_SPRING_LINEAR, CIPC_SPRING_TENSION, CIPC_SPRING_BUCKLING, CIPC_SPRING_BUCKLING, CIPC_SPRING_BUCKLING};
+    const double bendings[] = {0, 0, 0.01, 0, 100}; /* gives way on the way; at once; never */
+    for (size_t f = 0; f < sizeof forms / sizeof *forms; f++) {
+        const cipc_spring s = {.form = forms[f], .length = 1, .stiffness = 3, .bending = bendings[f]};
+        const double h = 0.9 / STEPS;
+        double work = 0;
+        assert_true(cipc_spring_energy(&s, 1) == 0);
+        assert_true(cipc_spring_energy(&s, 1.5) == 0.375);
+        for (int i = 0; i < STEPS; i++) {
+            const double r = 1 - i * h;
+            work -= h / 6 * (cipc_spring_tension(&s, r) + 4 * cipc_spring_tension(&s, r - 0.5 * h) + cipc_spring_tension(&s, r - h));
+            if (i % 500 == 499) assert_true(fabs(cipc_spring_energy(&s, r - h) - work) < 1e-8 * s.stiffness);
+        }
+    }
+}
+
 /* The first end is pulled towards the second; seen from the other end the force is the opposite to the last bit, and damping resists the ends' drawing apart only. */
 static void test_pairs_and_damping(void **state)
 {
@@ -179,6 +201,7 @@ int main(void)
         cmocka_unit_test(test_the_arc_in_high_precision),
         cmocka_unit_test(test_where_it_buckles),
         cmocka_unit_test(test_force_is_minus_the_gradient),
+        cmocka_unit_test(test_energy_is_the_work),
         cmocka_unit_test(test_pairs_and_damping),
         cmocka_unit_test(test_stiffness_of_a_sheet),
     };
