@@ -8,8 +8,11 @@
 #include "base/vector.h"
 #include "massspring/topology.h"
 
-/* The stable step is that of springs; friction and repulsion are not in it. */
+/* Springs and repulsion may each take half of what is stable for them alone: both at once, whose squares of frequencies add up, are then stable too. Friction is not in it: it is limited by what it acts
+ * on (forces.c). */
 static const double stable_fraction = 0.5;
+/* So many nodes can push one at a time while none is nearer to another than the pushing lets it: the kissing number. */
+static const double most_pushing = 12;
 /* More substeps in a frame than anybody would wait for: the springs, or what was asked for, are beyond the method. */
 static const double most_substeps = 1e6;
 
@@ -102,12 +105,23 @@ static cipc_status find_cloth(cipc_massspring *s, cipc_error *error)
 
 /* ---- The step ---- */
 
+/* 2/omega of the half springs of repulsion: of a body on a node, and of nodes on each other, where Gershgorin's bound counts every one twice. */
+static double stable_step_of_repulsion(const cipc_massspring *s)
+{
+    double greatest = 0;
+    for (int i = 0; i < s->model->node_count; i++)
+        if (s->is_cloth[i]) greatest = fmax(greatest, s->inverse_mass[i]);
+    const double pushes = (s->collider_count > 0 ? 1 : 0) + (s->options.self_distance > 0 ? 2 * most_pushing : 0);
+    return 2 / sqrt(pushes * s->options.repulsion * greatest);
+}
+
 static cipc_status choose_step(cipc_massspring *s, cipc_error *error)
 {
-    const double frame = s->options.frame, stable = stable_fraction * cipc_spring_stable_step(s->springs, (const int(*)[2])s->ends, s->spring_count, s->inverse_mass, s->model->node_count);
+    const double frame = s->options.frame, springs = cipc_spring_stable_step(s->springs, (const int(*)[2])s->ends, s->spring_count, s->inverse_mass, s->model->node_count);
+    const double stable = stable_fraction * fmin(springs, stable_step_of_repulsion(s));
     const double asked = s->options.step > 0 ? s->options.step : frame;
     if (!(stable > 0)) return no_memory(error);
-    if (s->options.refuse && asked > stable) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a step of %g s is too long for these springs: at most %g s", asked, stable);
+    if (s->options.refuse && asked > stable) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a step of %g s is too long for these springs and this repulsion: at most %g s", asked, stable);
     const double substeps = ceil(frame / fmin(asked, stable) * (1 - 1e-12));
     if (!(substeps <= most_substeps)) {
         cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a frame of %g s would take %g substeps; at most %g are allowed", frame, substeps, most_substeps);

@@ -104,6 +104,30 @@ static void test_long_steps(void **state)
     finish(&c);
 }
 
+/* A repulsion stiffer than the springs shortens the step, or a step is refused because of it; a sheet that lies on a ball by it stays where it is then. */
+static void test_stiff_repulsion(void **state)
+{
+    (void)state;
+    cloth c;
+    start(&c, 0.1005, 0);
+    c.collider = (cipc_collider){.kind = CIPC_COLLIDER_SPHERE, .half = {0.1}, .friction = 0.5};
+    c.collider_count = 1;
+    build(&c);
+    steps(&c, 1);
+    const int by_springs = c.report.substeps;
+    cipc_massspring_destroy(c.integrator);
+    c.options.repulsion = 3e4;
+    build(&c);
+    steps(&c, 20);
+    assert_true(c.report.substeps > 2 * by_springs && c.report.kinetic < 0.1);
+    cipc_massspring_destroy(c.integrator);
+    c.options.step = c.options.frame / by_springs;
+    c.options.refuse = true;
+    assert_int_equal(cipc_massspring_create(&c.integrator, c.sheet.model, &c.collider, 1, &c.options, &c.error), CIPC_E_OUT_OF_RANGE);
+    assert_non_null(strstr(c.error.what, "repulsion"));
+    finish(&c);
+}
+
 /* More substeps than an int holds were once none at all, and the run ended well without a step. */
 static void test_endless_frames_are_refused(void **state)
 {
@@ -203,7 +227,7 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_free_fall), cmocka_unit_test(test_long_steps), cmocka_unit_test(test_endless_frames_are_refused), cmocka_unit_test(test_sliding_stops), cmocka_unit_test(test_cloth_on_a_ball),
+        cmocka_unit_test(test_free_fall), cmocka_unit_test(test_long_steps), cmocka_unit_test(test_stiff_repulsion), cmocka_unit_test(test_endless_frames_are_refused), cmocka_unit_test(test_sliding_stops), cmocka_unit_test(test_cloth_on_a_ball),
         cmocka_unit_test(test_the_bound_leaves_no_node_inside), cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
