@@ -1,4 +1,4 @@
-/* The working memory of the asynchronous integrator, shared by its files. Reading order: integrator.c (the loop), nodes.c (drift and kick), elements.c, element_steps.c, element_ticks.c, external.c (forces), pair.c and
+/* The working memory of the asynchronous integrator, shared by its files. Reading order: integrator.c (the loop), create.c, nodes.c (drift and kick), elements.c, element_steps.c, element_ticks.c, external.c (forces), pair.c and
  * penalty.c (contact of two primitives), balls.c, kdop.c, separation.c (which pairs there are), windows.c (what the monitor is told), report.c. */
 #ifndef ASYNCHRONOUS_INTEGRATOR_H
 #define ASYNCHRONOUS_INTEGRATOR_H
