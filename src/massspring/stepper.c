@@ -119,9 +119,10 @@ static cipc_status choose_step(cipc_massspring *s, cipc_error *error)
 {
     const double frame = s->options.frame, springs = cipc_spring_stable_step(s->springs, (const int(*)[2])s->ends, s->spring_count, s->inverse_mass, s->model->node_count);
     const double stable = stable_fraction * fmin(springs, stable_step_of_repulsion(s));
+    const char *cause = stable < stable_fraction * springs ? "this repulsion" : "these springs";
     const double asked = s->options.step > 0 ? s->options.step : frame;
     if (!(stable > 0)) return no_memory(error);
-    if (s->options.refuse && asked > stable) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a step of %g s is too long for these springs and this repulsion: at most %g s", asked, stable);
+    if (s->options.refuse && asked > stable) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a step of %g s is too long for %s: at most %g s", asked, cause, stable);
     const double substeps = ceil(frame / fmin(asked, stable) * (1 - 1e-12));
     if (!(substeps <= most_substeps)) {
         cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a frame of %g s would take %g substeps; at most %g are allowed", frame, substeps, most_substeps);
