@@ -68,8 +68,9 @@ void cipc_spring_force(const cipc_spring *spring, const double x[6], const doubl
 double cipc_spring_stiffness_of_sheet(double young, double thickness);
 /* A step up to which semi-implicit Euler (v += h M^-1 (-K x - C v), then x += h v) is stable, s: h^2 k + 2 h c = 4, that is (2/omega) (sqrt(1 + zeta^2) - zeta), with the bounds of
  * Gershgorin for K and C over the mass at the worst node: twice the sum of its springs' stiffness or damping over its mass, once where the other end is held (inverse mass 0). Exact for two
- * equal masses, or one, and a spring; on the safe side otherwise. INFINITY: nothing can oscillate; 0: no memory. */
-double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2], int count, const double *inverse_mass, int node_count);
+ * equal masses, or one, and a spring; on the safe side otherwise. `push`, N/m, is stiffness that acts on every node besides, of what does not move; 0: none. INFINITY: nothing can oscillate;
+ * 0: the sums are beyond all numbers; NAN: no memory. */
+double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2], int count, double push, const double *inverse_mass, int node_count);
 
 /* ---- Deformation coefficient (SPEC B.2) ---------------------------------------------------------------------------------------------------------- */
 
@@ -153,7 +154,7 @@ typedef struct cipc_massspring_options {
     double self_distance;          /* m: nodes of a cloth that no spring joins are kept so far apart; 0: cloth passes through itself */
     double self_friction;          /* mu of cloth on itself */
 } cipc_massspring_options;
-/* frame 1/60 s, linear springs, Bmax 0.1 projected in at most 100 sweeps, improved bisection to 1 mm, repulsion 0, R1 with presliding 1e-4 m, breakaway 1.2, damping ratio 0.5,
+/* frame 1/60 s, linear springs, Bmax 0.1 projected in at most 2000 sweeps, improved bisection to 1 mm, repulsion 0, R1 with presliding 1e-4 m, breakaway 1.2, damping ratio 0.5,
  * band 1e-3 m/s, no collision of cloth with itself. */
 cipc_massspring_options cipc_massspring_options_default(void);
 
@@ -162,9 +163,9 @@ typedef struct cipc_massspring_report {
     int substeps;
     double substep;                /* s */
     int contacts;                  /* nodes in contact with a body, in the last substep */
-    long hits, iterations;         /* ways cut by bisection, and its evaluations */
+    long hits, arrivals, iterations; /* ways cut at a body; of these, begun farther away than the threshold, so that bisection had to look; its evaluations */
     int self_contacts;             /* pairs, in the last substep */
-    int sweeps;                    /* of the projection, in all */
+    int sweeps, beyond_bound;      /* of the projection, in all; substeps after which a spring was beyond Bmax (1 + 1e-3), for want of sweeps */
     double deformation;            /* B, at the end */
     double kinetic, gravitational, elastic; /* J, at the end */
     long reversals;                /* sign changes of tangential velocity of nodes in contact: chatter */

@@ -119,7 +119,7 @@ typedef struct cipc_counted {
 typedef struct cipc_massspring_totals {
     long frames;                    /* that the monitors looked at */
     cipc_counted intersecting, too_near; /* M1, M2 */
-    long substeps, hits, iterations, sweeps, reversals;
+    long substeps, hits, arrivals, iterations, sweeps, beyond_bound, reversals;
     int max_self_contacts;
     double max_deformation;         /* B */
     double frame_seconds, step_seconds, monitor_seconds; /* s: simulated; of wall clock */

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "base/vector.h"
+#include "massspring/spring_force.h"
 
 static void add_gravity(cipc_massspring *s)
 {
@@ -15,47 +16,47 @@ static void add_gravity(cipc_massspring *s)
 static void add_springs(cipc_massspring *s, const double *x, const double *v)
 {
     for (int k = 0; k < s->spring_count; k++) {
-        const int *e = s->ends[k];
-        double ends[6], speeds[6], f[3];
-        for (int i = 0; i < 2; i++) {
-            v3_copy(ends + 3 * i, x + 3 * e[i]);
-            v3_copy(speeds + 3 * i, v + 3 * e[i]);
-        }
-        cipc_spring_force(&s->springs[k], ends, speeds, f);
-        v3_axpy(s->force + 3 * e[0], 1, f);
-        v3_axpy(s->force + 3 * e[1], -1, f);
+        const int i = 3 * s->ends[k][0], j = 3 * s->ends[k][1];
+        double f[3];
+        massspring_spring_force(&s->springs[k], x + i, x + j, v + i, v + j, f);
+        v3_axpy(s->force + i, 1, f);
+        v3_axpy(s->force + j, -1, f);
     }
 }
 
 static void add_wind(cipc_massspring *s, const double *x, const double *v)
 {
     for (int t = 0; t < s->triangle_count; t++) {
-        const int *nodes = *s->triangles[t];
-        double corners[9], speeds[9], f[3];
-        for (int i = 0; i < 3; i++) {
-            v3_copy(corners + 3 * i, x + 3 * nodes[i]);
-            v3_copy(speeds + 3 * i, v + 3 * nodes[i]);
-        }
-        cipc_wind_force(s->options.wind_pressure, s->options.wind, corners, speeds, f);
-        for (int i = 0; i < 3; i++) v3_axpy(s->force + 3 * nodes[i], 1, f);
+        const int *n = *s->triangles[t];
+        const double *const corners[3] = {x + 3 * n[0], x + 3 * n[1], x + 3 * n[2]}, *const speeds[3] = {v + 3 * n[0], v + 3 * n[1], v + 3 * n[2]};
+        double f[3];
+        massspring_wind_force(s->options.wind_pressure, s->options.wind, corners, speeds, f);
+        for (int i = 0; i < 3; i++) v3_axpy(s->force + 3 * n[i], 1, f);
     }
 }
 
-/* The nearest body, if it is nearer than the threshold. A node that comes to another body, or away from all, forgets. */
-static double find_contact(cipc_massspring *s, int node, const double x[3], double normal[3])
+/* The nearest body, if it is nearer than twice the threshold: what bisection leaves is nearer than the threshold, and rounding may not lose it. */
+static int nearest_body(cipc_massspring *s, int node, const double x[3], double normal[3])
 {
-    massspring_contact *contact = &s->contacts[node];
-    double least = 2 * s->options.threshold, n[3]; /* what bisection leaves is nearer than the threshold; rounding may not lose it */
+    const double reach = 2 * s->options.threshold;
+    double least = reach, n[3];
     int nearest = -1;
     for (int c = 0; c < s->collider_count; c++) {
-        const double distance = cipc_collider_distance(&s->colliders[c], x, n);
+        if (massspring_is_clear(s, node, c, x, reach)) continue;
+        const double distance = massspring_look(s, node, c, x, n);
         if (distance >= least) continue;
         least = distance;
         nearest = c;
         v3_copy(normal, n);
     }
-    if (nearest != contact->collider) *contact = (massspring_contact){.collider = nearest};
-    return least;
+    return nearest;
+}
+
+/* A node that comes to another body, or away from all, forgets. */
+static void find_contact(cipc_massspring *s, int node, const double x[3], double normal[3])
+{
+    const int nearest = nearest_body(s, node, x, normal);
+    if (nearest != s->contacts[node].collider) s->contacts[node] = (massspring_contact){.collider = nearest};
 }
 
 /* sigma0 = Fc / presliding, sigma1 = 2 zeta sqrt(sigma0 m) (SPEC B.7). */

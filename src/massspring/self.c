@@ -7,11 +7,11 @@
 #include "base/vector.h"
 #include "cipc/geometry.h"
 
-typedef struct search {
-    cipc_massspring *s;
-    const double *x, *v;
-    int node;
-} search;
+/* Pairs within self_distance (1 + slack) are listed, and the list serves until a node has moved by half the slack: so long no other pair can come within self_distance. What rounding might
+ * let in is at the end of its half spring, which does not push there. */
+static const double slack = 0.5;
+
+/* ---- The list ---- */
 
 static bool is_joined(const cipc_massspring *s, int a, int b)
 {
@@ -19,15 +19,94 @@ static bool is_joined(const cipc_massspring *s, int a, int b)
     return bsearch(&wanted, s->joined, (size_t)s->spring_count, sizeof wanted, massspring_compare_joins) != NULL;
 }
 
-/* Half springs of the repulsion's stiffness, and Coulomb friction of what they push, at most what stops the sliding. */
-static void push_apart(search *c, int other)
+typedef struct search {
+    cipc_massspring *s;
+    const double *x;
+    int node;
+    bool full; /* no memory for more */
+} search;
+
+static bool make_room(massspring_near_list *near)
 {
+    const int room = near->room > 0 ? 2 * near->room : 256;
+    int(*pairs)[2] = near->count < near->room ? near->pairs : cipc_realloc(near->pairs, (size_t)room, sizeof *pairs);
+    if (!pairs) return false;
+    near->room = near->count < near->room ? near->room : room;
+    near->pairs = pairs;
+    return true;
+}
+
+static void visit(void *context, int other)
+{
+    search *c = context;
     cipc_massspring *s = c->s;
-    double between[3], speed[3], f[3];
+    double between[3];
     if (other <= c->node || !s->is_cloth[other] || is_joined(s, c->node, other)) return;
     v3_sub(between, c->x + 3 * c->node, c->x + 3 * other);
-    v3_sub(speed, c->v + 3 * c->node, c->v + 3 * other);
-    const double distance = v3_norm(between), w = s->inverse_mass[c->node] + s->inverse_mass[other];
+    if (!(v3_norm(between) < s->options.self_distance * (1 + slack))) return;
+    if (!make_room(&s->near)) {
+        c->full = true;
+        return;
+    }
+    s->near.pairs[s->near.count][0] = c->node;
+    s->near.pairs[s->near.count++][1] = other;
+}
+
+/* In the order of their nodes: so forces add up alike, whenever the list was made. */
+static int compare_pairs(const void *p, const void *q)
+{
+    const int *a = p, *b = q;
+    return a[0] != b[0] ? (a[0] > b[0]) - (a[0] < b[0]) : (a[1] > b[1]) - (a[1] < b[1]);
+}
+
+static cipc_status no_memory(cipc_error *error) { return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "mass-spring", "no memory for the collision of cloth with itself"); }
+
+static cipc_status make_list(cipc_massspring *s, const double *x, cipc_error *error)
+{
+    const int n = s->model->node_count;
+    const double half = 0.5 * (1 + slack) * s->options.self_distance;
+    cipc_box *boxes = cipc_alloc((size_t)n, sizeof *boxes);
+    cipc_box_tree *tree = NULL;
+    search c = {.s = s, .x = x};
+    s->near.count = 0;
+    s->near.made = false;
+    if (!boxes) return no_memory(error);
+    for (int i = 0; i < 3 * n; i++) {
+        boxes[i / 3].lo[i % 3] = x[i] - half;
+        boxes[i / 3].hi[i % 3] = x[i] + half;
+        s->near.at[i] = x[i];
+    }
+    cipc_status status = cipc_box_tree_create(&tree, boxes, n, error);
+    for (c.node = 0; c.node < n && !status && !c.full; c.node++)
+        if (s->is_cloth[c.node]) cipc_box_tree_query(tree, &boxes[c.node], visit, &c, NULL);
+    if (!status && c.full) status = no_memory(error);
+    cipc_box_tree_destroy(tree);
+    cipc_free(boxes);
+    if (s->near.count > 0) qsort(s->near.pairs, (size_t)s->near.count, sizeof *s->near.pairs, compare_pairs);
+    s->near.made = !status;
+    return status;
+}
+
+static bool list_serves(const cipc_massspring *s, const double *x)
+{
+    const double most = 0.5 * slack * s->options.self_distance;
+    for (int i = 0; i < s->model->node_count && s->near.made; i++) {
+        double moved[3];
+        v3_sub(moved, x + 3 * i, s->near.at + 3 * i);
+        if (s->is_cloth[i] && !(v3_norm2(moved) < most * most)) return false;
+    }
+    return s->near.made;
+}
+
+/* ---- Forces ---- */
+
+/* Half springs of the repulsion's stiffness, and Coulomb friction of what they push, at most what stops the sliding. */
+static void push_apart(cipc_massspring *s, int node, int other, const double *x, const double *v)
+{
+    double between[3], speed[3], f[3];
+    v3_sub(between, x + 3 * node, x + 3 * other);
+    v3_sub(speed, v + 3 * node, v + 3 * other);
+    const double distance = v3_norm(between), w = s->inverse_mass[node] + s->inverse_mass[other];
     if (!(distance < s->options.self_distance) || !(distance > 0) || !(w > 0)) return;
     v3_scale(between, 1 / distance, between);
     const double push = s->options.repulsion * (s->options.self_distance - distance), along = v3_dot(speed, between);
@@ -35,31 +114,15 @@ static void push_apart(search *c, int other)
     v3_axpy(speed, -along, between);
     const double sliding = v3_norm(speed);
     if (sliding > 0) v3_axpy(f, -fmin(s->options.self_friction * push, sliding / (w * s->h)) / sliding, speed);
-    v3_axpy(s->force + 3 * c->node, 1, f);
+    v3_axpy(s->force + 3 * node, 1, f);
     v3_axpy(s->force + 3 * other, -1, f);
     s->report.self_contacts++;
 }
 
-static void visit(void *context, int other) { push_apart(context, other); }
-
 cipc_status massspring_self_forces(cipc_massspring *s, const double *x, const double *v, cipc_error *error)
 {
-    const int n = s->model->node_count;
-    cipc_box *boxes = cipc_alloc((size_t)n, sizeof *boxes);
-    cipc_box_tree *tree = NULL;
+    const cipc_status status = list_serves(s, x) ? CIPC_OK : make_list(s, x, error);
     s->report.self_contacts = 0;
-    if (!boxes) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "mass-spring", "no memory for the collision of cloth with itself");
-    for (int i = 0; i < n; i++)
-        for (int k = 0; k < 3; k++) {
-            boxes[i].lo[k] = x[3 * i + k] - 0.5 * s->options.self_distance;
-            boxes[i].hi[k] = x[3 * i + k] + 0.5 * s->options.self_distance;
-        }
-    const cipc_status status = cipc_box_tree_create(&tree, boxes, n, error);
-    for (int i = 0; i < n && !status; i++) {
-        search c = {s, x, v, i};
-        if (s->is_cloth[i]) cipc_box_tree_query(tree, &boxes[i], visit, &c, NULL);
-    }
-    cipc_box_tree_destroy(tree);
-    cipc_free(boxes);
+    for (int k = 0; k < s->near.count && !status; k++) push_apart(s, s->near.pairs[k][0], s->near.pairs[k][1], x, v);
     return status;
 }

@@ -18,19 +18,19 @@ static void add_spring(const cipc_spring *s, double inverse_mass, bool other_is_
 }
 
 /* (9): h^2 k + 2 h c = 4, the form without a difference of near numbers. */
-static double limit_of(double k, double c) { return k > 0 || c > 0 ? 4 / (c + sqrt(c * c + 4 * k)) : INFINITY; }
+static double limit_of(double k, double c) { return k > 0 || c > 0 ? 4 / (c + hypot(c, 2 * sqrt(k))) : INFINITY; }
 
-double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2], int count, const double *inverse_mass, int node_count)
+double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2], int count, double push, const double *inverse_mass, int node_count)
 {
     double *sums = cipc_alloc(2 * (size_t)node_count, sizeof *sums), step = INFINITY;
-    if (!sums) return 0;
+    if (!sums) return (double)NAN;
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < 2; k++) {
             const int node = ends[i][k], other = ends[i][1 - k];
             add_spring(&springs[i], inverse_mass[node], !(inverse_mass[other] > 0), &sums[2 * node], &sums[2 * node + 1]);
         }
     }
-    for (int i = 0; i < node_count; i++) step = min2(step, limit_of(sums[2 * i], sums[2 * i + 1]));
+    for (int i = 0; i < node_count; i++) step = min2(step, limit_of(sums[2 * i] + inverse_mass[i] * push, sums[2 * i + 1]));
     cipc_free(sums);
     return step;
 }

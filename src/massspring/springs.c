@@ -1,6 +1,6 @@
 /* Springs between two nodes: linear, in tension only, buckling (SPEC B.1; docs/theory/massspring_springs.md (1)-(6)). */
 #include "base/vector.h"
-#include "cipc/massspring.h"
+#include "massspring/spring_force.h"
 
 /* Coefficients of h(w) = 1 - sin(u)/u = w/3! - w^2/5! + ..., w = u^2. The terms left out are below 1e-17 of the first one up to w = pi^2; no two that matter cancel there, so that
  * Horner's rule gives all digits from u = 0 to pi, where 1 - sin(u)/u itself would lose them near 0. */
@@ -75,16 +75,6 @@ double cipc_spring_energy(const cipc_spring *spring, double r)
     return 0.5 * spring->stiffness * (from - spring->length) * (from - spring->length) + (buckled_energy(spring, r) - buckled_energy(spring, from));
 }
 
-void cipc_spring_force(const cipc_spring *spring, const double x[6], const double v[6], double f[3])
-{
-    double along[3], approach[3];
-    v3_sub(along, x + 3, x);
-    v3_sub(approach, v + 3, v);
-    const double r = v3_norm(along);
-    v3_scale(f, 0, along);
-    if (!(r > 0)) return; /* no direction */
-    v3_scale(along, 1 / r, along);
-    v3_scale(f, cipc_spring_tension(spring, r) + spring->damping * v3_dot(approach, along), along);
-}
+void cipc_spring_force(const cipc_spring *spring, const double x[6], const double v[6], double f[3]) { massspring_spring_force(spring, x, x + 3, v, v + 3, f); }
 
 double cipc_spring_stiffness_of_sheet(double young, double thickness) { return 0.5 * sqrt(3.0) * young * thickness; }

@@ -8,17 +8,19 @@
 #include "base/vector.h"
 #include "massspring/topology.h"
 
-/* Springs and repulsion may each take half of what is stable for them alone: both at once, whose squares of frequencies add up, are then stable too. Friction is not in it: it is limited by what it acts
- * on (forces.c). */
-static const double stable_fraction = 0.5;
+/* Of the step up to which springs and repulsion together are stable: friction is not in it, which is limited by what it acts on (forces.c), and near the limit itself the fastest modes swing wide
+ * ((10) and what follows it). */
+static const double stable_fraction = 0.8;
 /* So many nodes can push one at a time while none is nearer to another than the pushing lets it: the kissing number. */
 static const double most_pushing = 12;
+/* The part of Bmax by which B may be beyond it after a step. */
+static const double deformation_tolerance = 1e-3;
 /* More substeps in a frame than anybody would wait for: the springs, or what was asked for, are beyond the method. */
 static const double most_substeps = 1e6;
 
 cipc_massspring_options cipc_massspring_options_default(void)
 {
-    return (cipc_massspring_options){.frame = 1.0 / 60, .deformation = 0.1, .sweeps = 100, .bisection = CIPC_BISECTION_IMPROVED, .threshold = 1e-3, .law = CIPC_LAW_BIDIRECTIONAL,
+    return (cipc_massspring_options){.frame = 1.0 / 60, .deformation = 0.1, .sweeps = 2000, .bisection = CIPC_BISECTION_IMPROVED, .threshold = 1e-3, .law = CIPC_LAW_BIDIRECTIONAL,
                                      .presliding = 1e-4, .breakaway = 1.2, .damping_ratio = 0.5, .band = 1e-3};
 }
 
@@ -105,24 +107,20 @@ static cipc_status find_cloth(cipc_massspring *s, cipc_error *error)
 
 /* ---- The step ---- */
 
-/* 2/omega of the half springs of repulsion: of a body on a node, and of nodes on each other, where Gershgorin's bound counts every one twice. */
-static double stable_step_of_repulsion(const cipc_massspring *s)
+/* Half springs of repulsion: of a body on a node, and of nodes on each other, where Gershgorin's bound counts every one twice. N/m at a node. */
+static double pushing(const cipc_massspring *s) { return ((s->collider_count > 0 ? 1 : 0) + (s->options.self_distance > 0 ? 2 * most_pushing : 0)) * s->options.repulsion; }
+
+static double stable_step(const cipc_massspring *s, double push)
 {
-    double greatest = 0;
-    for (int i = 0; i < s->model->node_count; i++)
-        if (s->is_cloth[i]) greatest = fmax(greatest, s->inverse_mass[i]);
-    const double pushes = (s->collider_count > 0 ? 1 : 0) + (s->options.self_distance > 0 ? 2 * most_pushing : 0);
-    return 2 / sqrt(pushes * s->options.repulsion * greatest);
+    return stable_fraction * cipc_spring_stable_step(s->springs, (const int(*)[2])s->ends, s->spring_count, push, s->inverse_mass, s->model->node_count);
 }
 
 static cipc_status choose_step(cipc_massspring *s, cipc_error *error)
 {
-    const double frame = s->options.frame, springs = cipc_spring_stable_step(s->springs, (const int(*)[2])s->ends, s->spring_count, s->inverse_mass, s->model->node_count);
-    const double stable = stable_fraction * fmin(springs, stable_step_of_repulsion(s));
-    const char *cause = stable < stable_fraction * springs ? "this repulsion" : "these springs";
-    const double asked = s->options.step > 0 ? s->options.step : frame;
-    if (!(stable > 0)) return no_memory(error);
-    if (s->options.refuse && asked > stable) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a step of %g s is too long for %s: at most %g s", asked, cause, stable);
+    const double frame = s->options.frame, asked = s->options.step > 0 ? s->options.step : frame, stable = stable_step(s, pushing(s)), of_springs = stable_step(s, 0);
+    if (isnan(stable) || isnan(of_springs)) return no_memory(error);
+    if (s->options.refuse && asked > stable)
+        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a step of %g s is too long for %s: at most %g s", asked, asked > of_springs ? "these springs" : "this repulsion", stable);
     const double substeps = ceil(frame / fmin(asked, stable) * (1 - 1e-12));
     if (!(substeps <= most_substeps)) {
         cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a frame of %g s would take %g substeps; at most %g are allowed", frame, substeps, most_substeps);
@@ -143,12 +141,15 @@ static bool allocate(cipc_massspring *s, const cipc_collider *colliders, int cou
     s->moves = cipc_alloc(n, sizeof *s->moves);
     s->is_cloth = cipc_alloc(n, sizeof *s->is_cloth);
     s->contacts = cipc_alloc(n, sizeof *s->contacts);
+    s->clearances = cipc_alloc(n * (size_t)count, sizeof *s->clearances);
     s->colliders = cipc_alloc((size_t)count, sizeof *s->colliders);
-    if (!s->inverse_mass || !s->force || !s->target || !s->is_dirichlet || !s->moves || !s->is_cloth || !s->contacts || !s->colliders) return false;
+    if (!s->inverse_mass || !s->force || !s->target || !s->is_dirichlet || !s->moves || !s->is_cloth || !s->contacts || !s->clearances || !s->colliders) return false;
+    if (s->options.self_distance > 0 && !(s->near.at = cipc_alloc(3 * n, sizeof *s->near.at))) return false;
     for (int c = 0; c < count; c++) s->colliders[c] = colliders[c];
     s->collider_count = count;
     for (size_t i = 0; i < n; i++) {
         s->contacts[i].collider = -1;
+        for (int c = 0; c < count; c++) s->clearances[i * (size_t)count + (size_t)c].distance = -INFINITY;
         s->inverse_mass[i] = 1 / s->model->mass[i];
     }
     return true;
@@ -167,6 +168,8 @@ cipc_status cipc_massspring_create(cipc_massspring **integrator, const cipc_mode
     s->options = *options;
     if (!allocate(s, colliders, collider_count)) status = no_memory(error);
     if (!status) status = find_cloth(s, error);
+    if (!status) s->bound = massspring_bound_create((const int(*)[2])s->ends, s->structural_count, model->node_count);
+    if (!status && !s->bound) status = no_memory(error);
     if (!status) status = choose_step(s, error);
     if (status) cipc_massspring_destroy(s);
     else *integrator = s;
@@ -176,7 +179,8 @@ cipc_status cipc_massspring_create(cipc_massspring **integrator, const cipc_mode
 void cipc_massspring_destroy(cipc_massspring *s)
 {
     if (!s) return;
-    void *blocks[] = {s->colliders, s->springs, s->ends, s->triangles, s->inverse_mass, s->force, s->target, s->is_dirichlet, s->moves, s->contacts, s->is_cloth, s->joined, s};
+    massspring_bound_destroy(s->bound);
+    void *blocks[] = {s->colliders, s->springs, s->ends, s->triangles, s->inverse_mass, s->force, s->target, s->is_dirichlet, s->moves, s->contacts, s->clearances, s->is_cloth, s->joined, s->near.pairs, s->near.at, s};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) cipc_free(blocks[i]);
 }
 
@@ -212,18 +216,19 @@ static void advance(cipc_massspring *s, double *x, double *v)
     }
 }
 
+static bool leave_bodies(void *integrator, int node, double x[3], double v[3]) { return massspring_leave_bodies(integrator, node, x, v); }
+
 static void bound_deformation(cipc_massspring *s, double *x, double *v)
 {
-    const int(*ends)[2] = (const int(*)[2])s->ends;
+    const massspring_sheet sheet = {.springs = s->springs, .ends = (const int(*)[2])s->ends, .count = s->structural_count, .node_count = s->model->node_count, .inverse_mass = s->inverse_mass,
+                                    .dt = s->h, .x = x, .v = v};
     if (!(s->options.deformation > 0)) return;
-    if (s->options.reading == CIPC_DEFORMATION_REST_LENGTH) {
-        cipc_deformation_adjust(s->springs, ends, s->structural_count, s->options.deformation, x);
-        return;
+    if (s->options.reading == CIPC_DEFORMATION_REST_LENGTH) cipc_deformation_adjust(s->springs, sheet.ends, sheet.count, s->options.deformation, x);
+    else {
+        bool kept;
+        s->report.sweeps += massspring_bound_sweep(s->bound, &sheet, s->options.deformation, deformation_tolerance, s->options.sweeps, leave_bodies, s, &kept);
+        s->report.beyond_bound += !kept;
     }
-    const int sweeps = cipc_deformation_project(s->springs, ends, s->structural_count, s->options.deformation, 1e-3, s->options.sweeps, s->inverse_mass, s->h, x, v, NULL);
-    s->report.sweeps += sweeps;
-    for (int i = 0; i < s->model->node_count && sweeps > 0; i++)
-        if (s->inverse_mass[i] > 0) massspring_leave_bodies(s, i, x + 3 * i, v + 3 * i);
 }
 
 static cipc_status substep(cipc_massspring *s, double time, double *x, double *v, cipc_error *error)

@@ -13,9 +13,11 @@ static const cipc_field report_fields[] = {
     REPORT_FIELD(substep, CIPC_FIELD_REAL),
     REPORT_FIELD(contacts, CIPC_FIELD_INTEGER),
     REPORT_FIELD(hits, CIPC_FIELD_LONG),
+    REPORT_FIELD(arrivals, CIPC_FIELD_LONG),
     {"bisection_iterations", CIPC_FIELD_LONG, offsetof(cipc_massspring_report, iterations)},
     REPORT_FIELD(self_contacts, CIPC_FIELD_INTEGER),
     REPORT_FIELD(sweeps, CIPC_FIELD_INTEGER),
+    REPORT_FIELD(beyond_bound, CIPC_FIELD_INTEGER),
     REPORT_FIELD(deformation, CIPC_FIELD_REAL),
     REPORT_FIELD(reversals, CIPC_FIELD_LONG),
 };

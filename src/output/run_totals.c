@@ -100,8 +100,10 @@ void cipc_massspring_summary_add(cipc_run_summary *summary, const cipc_masssprin
     cipc_massspring_totals *totals = &summary->massspring;
     totals->substeps += report->substeps;
     totals->hits += report->hits;
+    totals->arrivals += report->arrivals;
     totals->iterations += report->iterations;
     totals->sweeps += report->sweeps;
+    totals->beyond_bound += report->beyond_bound;
     totals->reversals += report->reversals;
     totals->max_self_contacts = report->self_contacts > totals->max_self_contacts ? report->self_contacts : totals->max_self_contacts;
     totals->max_deformation = fmax(totals->max_deformation, report->deformation);

@@ -207,8 +207,10 @@ static json_t *massspring_totals_object(const cipc_massspring_totals *totals, bo
     const bool measured = totals->step_seconds > 0;
     cipc_json_put(object, "substeps", json_integer(totals->substeps), good);
     cipc_json_put(object, "hits", json_integer(totals->hits), good);
+    cipc_json_put(object, "arrivals", json_integer(totals->arrivals), good);
     cipc_json_put(object, "bisection_iterations", json_integer(totals->iterations), good);
     cipc_json_put(object, "sweeps", json_integer(totals->sweeps), good);
+    cipc_json_put(object, "beyond_bound", json_integer(totals->beyond_bound), good);
     cipc_json_put(object, "reversals", json_integer(totals->reversals), good);
     cipc_json_put(object, "real_time_factor", measured ? cipc_json_number(totals->frame_seconds / totals->step_seconds) : json_null(), good);
     return object;

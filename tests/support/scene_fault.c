@@ -69,12 +69,14 @@ static void visit_asynchronous(json_t *root, visitor *visit, void *context)
 static void visit_massspring(json_t *root, visitor *visit, void *context)
 {
     static const char *const places[][3] = {
-        {"bending springs", "bending", "stiffness"}, {"bound", "deformation", "bound"}, {"wind", "wind", "pressure"}, {"presliding", "friction", "presliding"},
+        {"bending springs", "bending", "stiffness"}, {"bound", "deformation", "bound"}, {"wind", "wind", "pressure"}, {"wind velocity", "wind", "velocity"},
+        {"presliding", "friction", "presliding"}, {"breakaway", "friction", "breakaway"}, {"damping ratio", "friction", "damping_ratio"}, {"band", "friction", "band"},
+        {"repulsion", NULL, "repulsion"}, {"self distance", "self", "distance"}, {"self friction", "self", "friction"},
     };
     size_t i;
     json_t *collider, *settings = json_object_get(root, "mass_spring");
     for (size_t k = 0; k < sizeof places / sizeof places[0]; k++) {
-        visit(context, places[k][0], NULL, json_object_get(settings, places[k][1]), places[k][2]);
+        visit(context, places[k][0], NULL, places[k][1] != NULL ? json_object_get(settings, places[k][1]) : settings, places[k][2]);
     }
     json_array_foreach(json_object_get(root, "colliders"), i, collider)
     {

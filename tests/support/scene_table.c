@@ -22,6 +22,8 @@
         {"strain limit of cloth", "the last bits decide from the first step on", SMALLER_STEPS},                                     \
     }
 #define SHUFFLED "once the cards are let go the last bits decide; the variant whose friction begins less suddenly feels it"
+#define UNTOUCHED "it touches no body"
+#define UNBOUND {"bound", "no spring comes near it", NULL}
 #define ONE_SEGMENT "rods of one segment do not bend"
 #define FLAT_PLATE                                                                                                                   \
     {                                                                                                                                \
@@ -76,10 +78,12 @@ const scene_variant scene_variants[] = {
     {"bed-of-nails", SCENE("bed-of-nails", NULL), {{0}}},
     {"nail-landing", SCENE("nail-landing", NULL), {{0}}},
     {"drape-asynchronous", SCENE("drape", "method=asynchronous", NO_LIMIT, "asynchronous.layer_factor=0.1", "steps=12"), {NO_FOLD}},
-    {"cloth-hang", SCENE("cloth-hang", NULL), {{"presliding", "it touches no body", NULL}}},
-    {"round-table", SCENE("round-table", NULL), {{"bound", "no spring comes near it", NULL}}},
+    {"cloth-hang", SCENE("cloth-hang", NULL), 
+     {{"presliding", UNTOUCHED, NULL}, {"breakaway", UNTOUCHED, NULL}, {"damping ratio", UNTOUCHED, NULL}, {"band", UNTOUCHED, NULL}}},
+    {"round-table", SCENE("round-table", NULL), {UNBOUND}},
+    {"table-materials", SCENE("table-materials", NULL), {UNBOUND}},
     {"dress-on-body", SCENE("dress-on-body", NULL), {{0}}},
-    {"cloth-ball", SCENE("cloth-ball", NULL), {{0}}},
+    {"cloth-ball", SCENE("cloth-ball", NULL), {UNBOUND}},
     {"free-fall", SCENE("free-fall", NULL), {{"dhat", "nothing comes near", NULL}, FLAT_CLOTH}},
     {"incline", SCENE("incline", NULL), FLAT_PLATE},
     {"incline-sticks", SCENE("incline", "friction.0.mu=0.5"), FLAT_PLATE},

@@ -24,7 +24,7 @@ static void write_stats(const path *file, int steps, long hits)
     FILE *out = fopen(file->text, "w");
     assert_non_null(out);
     for (int i = 1; i <= steps; i++) {
-        const cipc_massspring_report report = {.contacts = 5 + i % 3, .hits = hits, .iterations = 3 * hits, .deformation = 0.04 + 0.001 * (i % 5), .kinetic = 0.1 * i, .gravitational = 3 - 0.1 * i};
+        const cipc_massspring_report report = {.contacts = 5 + i % 3, .hits = 2 * hits, .arrivals = hits, .iterations = 3 * hits, .deformation = 0.04 + 0.001 * (i % 5), .kinetic = 0.1 * i, .gravitational = 3 - 0.1 * i};
         sample_run_advance(&run);
         assert_int_equal(cipc_massspring_stats_write(out, run.state, &report, &times, NULL, NULL), CIPC_OK);
     }
@@ -87,7 +87,7 @@ static void test_bound_and_hits(void **state)
 static void test_odd_statistics(void **state)
 {
     (void)state;
-    static const char *const texts[] = {"", "not json", "[1,2]\n{}\n", "{\"time\":0.1,\"deformation\":null,\"hits\":\"nan\",\"contacts\":{}}\n", "{\"time\":0.1,\"deformation\":1e308,\"hits\":-1}\n{\"time\":1e308}\n"};
+    static const char *const texts[] = {"", "not json", "[1,2]\n{}\n", "{\"time\":0.1,\"deformation\":null,\"arrivals\":\"nan\",\"contacts\":{}}\n", "{\"time\":0.1,\"deformation\":1e308,\"arrivals\":-1}\n{\"time\":1e308}\n"};
     cipc_error error;
     const path folder = folder_make(), stats = path_in(&folder, "stats.jsonl"), png = path_in(&folder, "plots.png");
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++) {

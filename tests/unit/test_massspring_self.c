@@ -8,8 +8,10 @@
 #include <float.h>
 #include <math.h>
 
-#include "cipc/massspring.h"
+#include <gsl/gsl_rng.h>
+
 #include "cipc/scene.h"
+#include "massspring/stepper.h"
 #include "support/failing_memory.h"
 #include "support/sheet_scene.h"
 
@@ -117,6 +119,55 @@ static void test_neighbours_are_left_alone(void **state)
     finish(&p);
 }
 
+/* The list of pairs that are near serves for many substeps; that changes no bit, against one made anew whenever it can be from here. It does serve: the sheets move less than its slack in a frame. */
+static void test_the_list_shows_in_no_bit(void **state)
+{
+    (void)state;
+    pair kept, anew;
+    start(&kept, 0.3);
+    start(&anew, 0.3);
+    anew.options.frame = kept.options.frame /= 64;
+    kept.options.self_distance = anew.options.self_distance = 0.07; /* several pairs at every node */
+    kept.options.self_friction = anew.options.self_friction = 0.3;
+    run(&kept, 0);
+    run(&anew, 0);
+    int served = 0, contacts = 0;
+    for (int k = 0; k < 640; k++) {
+        const double made_at = kept.integrator->near.at[3 * kept.half + 1];
+        anew.integrator->near.made = false;
+        assert_int_equal(cipc_massspring_step(kept.integrator, kept.sheet.state, &kept.report, &kept.error), CIPC_OK);
+        assert_int_equal(cipc_massspring_step(anew.integrator, anew.sheet.state, &anew.report, &anew.error), CIPC_OK);
+        served += kept.integrator->near.at[3 * kept.half + 1] == made_at;
+        contacts += kept.report.self_contacts > 0;
+        const size_t size = 3 * (size_t)kept.sheet.model->node_count * sizeof(double);
+        assert_memory_equal(kept.sheet.state->position, anew.sheet.state->position, size);
+        assert_memory_equal(kept.sheet.state->velocity, anew.sheet.state->velocity, size);
+    }
+    assert_true(served > 500 && served < 640 && contacts > 20);
+    finish(&kept);
+    finish(&anew);
+}
+
+/* Edges no longer than r that cross have ends nearer to each other than r/sqrt(2): what cloth needs to be kept apart by, against its edges passing through each other. */
+static void test_crossing_edges_have_near_ends(void **state)
+{
+    (void)state;
+    double greatest = 0;
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    gsl_rng_set(rng, 3);
+    for (int k = 0; k < 1000000; k++) { /* through the origin, at an angle, each by a part of its length 1 */
+        const double part[2] = {gsl_rng_uniform(rng), gsl_rng_uniform(rng)}, cosine = cos(M_PI * gsl_rng_uniform(rng));
+        double least = INFINITY;
+        for (int i = 0; i < 4; i++) {
+            const double a = part[0] - i % 2, b = part[1] - i / 2;
+            least = fmin(least, sqrt(a * a + b * b - 2 * a * b * cosine));
+        }
+        greatest = fmax(greatest, least);
+    }
+    gsl_rng_free(rng);
+    assert_true(greatest <= M_SQRT1_2 && greatest > 0.7);
+}
+
 /* Sideways momentum that the lower sheet has after the impact. */
 static double dragged(double mu, double *pushed)
 {
@@ -160,7 +211,8 @@ static void test_no_memory(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_sheets_bounce), cmocka_unit_test(test_it_is_asked_for), cmocka_unit_test(test_neighbours_are_left_alone), cmocka_unit_test(test_rubbing), cmocka_unit_test(test_no_memory),
+        cmocka_unit_test(test_sheets_bounce), cmocka_unit_test(test_it_is_asked_for), cmocka_unit_test(test_neighbours_are_left_alone), cmocka_unit_test(test_the_list_shows_in_no_bit),
+        cmocka_unit_test(test_crossing_edges_have_near_ends), cmocka_unit_test(test_rubbing), cmocka_unit_test(test_no_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
