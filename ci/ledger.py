@@ -4,6 +4,7 @@ Evidence is what ci/claims gathers:
     tests      program -> {"stale": why or "", "exit_status", "results": {test: passed|failed|skipped}, "figures": [as tests/support/claim.h writes them], "ended"}
     runs       name -> {"stale", "exit_status", "summary": of cipc run, "ended"; "ends": as what the scene's runs are to end, if not "OK"}
     campaigns  name -> {"stale", "exit_status", "report": of cipc verify, "ended"}
+    benches    script -> {"stale", "exit_status", "figures": a tree of numbers, "ended"}: ratios of times within one run
     missing pieces are missing keys.
     size       of the scenes; a figure with "sizes" is asked for at these only
     methods    name of a run -> its method, if not "c-ipc"
@@ -18,7 +19,7 @@ OF_THE_SPECIFICATION = ["C%d" % k for k in range(1, 15)] + ["A%d" % k for k in r
 RELATIONS = {"<": lambda m, t: m < t, "<=": lambda m, t: m <= t, ">": lambda m, t: m > t, ">=": lambda m, t: m >= t, "=": lambda m, t: m == t}
 SIZES = ("ci", "desk", "paper")
 ANY = "any"  # whose figure a broken line of a log is
-SOURCES = {"test": (), "runs": ("violations", "held", "unconverged", "count", "sum", "min", "max"), "campaign": ("counter",)}
+SOURCES = {"test": (), "runs": ("violations", "held", "unconverged", "count", "sum", "min", "max"), "campaign": ("counter",), "bench": ("value",)}
 
 
 class BadDefinition(Exception):
@@ -250,6 +251,15 @@ def judge_campaign(item, evidence, reasons):
     return figures, [piece["ended"]] if piece else []
 
 
+def judge_bench(item, evidence, reasons):
+    script = item["bench"]
+    piece = evidence["benches"].get(script)
+    wrong = problems(piece, script)
+    reasons += wrong
+    measured = (piece.get("figures") if piece and not wrong else None) or {}
+    return [take(figure, number(at(measured, figure["value"])), reasons, script) for figure in item.get("figures", [])], [piece["ended"]] if piece else []
+
+
 def left_out(claim, evidence):
     """Why a claim is not judged when only some runs were asked for; "": it is."""
     for item in claim["evidence"] if evidence.get("selected") else []:
@@ -292,6 +302,8 @@ def judge_claim(claim, evidence):
             figures, dates = judge_test(claim, item, evidence, row["reasons"])
         elif "runs" in item:
             figures, dates = judge_runs(item, evidence, row["reasons"])
+        elif "bench" in item:
+            figures, dates = judge_bench(item, evidence, row["reasons"])
         else:
             figures, dates = judge_campaign(item, evidence, row["reasons"])
         row["figures"] += figures
@@ -327,6 +339,8 @@ def shown_by(item):
         text = f"`{item['test']}.c`" + (": " + ", ".join(f"`{name}`" for name in item["names"]) if item.get("names") else "")
     elif "runs" in item:
         text = "every scene and variant" if item["runs"] == "all" else "runs " + ", ".join(f"`{name}`" for name in item["runs"])
+    elif "bench" in item:
+        text = "`" + " ".join([item["bench"], "build/cipc", *item.get("arguments", [])]) + "`"
     else:
         text = f"`cipc verify {item['campaign']}`"
     return text + (f" ({item['shows']})" if item.get("shows") else "")

@@ -1,4 +1,4 @@
-/* Cloth against itself: nodes that no spring joins push each other apart, and rub (SPEC B.6, [R]). No guarantee: nodes alone are looked at. */
+/* Cloth against itself: nodes that no spring joins push each other apart, and rub (SPEC B.6, [R]), where they are nearer than at rest. No guarantee: nodes alone are looked at. */
 #include "massspring/stepper.h"
 
 #include <math.h>
@@ -29,33 +29,44 @@ typedef struct search {
 static bool make_room(massspring_near_list *near)
 {
     const int room = near->room > 0 ? 2 * near->room : 256;
-    int(*pairs)[2] = near->count < near->room ? near->pairs : cipc_realloc(near->pairs, (size_t)room, sizeof *pairs);
+    massspring_near_pair *pairs = near->count < near->room ? near->pairs : cipc_realloc(near->pairs, (size_t)room, sizeof *pairs);
     if (!pairs) return false;
     near->room = near->count < near->room ? near->room : room;
     near->pairs = pairs;
     return true;
 }
 
+static double distance(const double *x, int a, int b)
+{
+    double between[3];
+    v3_sub(between, x + 3 * a, x + 3 * b);
+    return v3_norm(between);
+}
+
+/* Cloth with edges shorter than half the distance would push itself apart at rest. Different cloths are kept apart by all of it. */
+static double kept_apart(const cipc_massspring *s, int a, int b)
+{
+    const cipc_model *m = s->model;
+    return m->node_body[a] == m->node_body[b] ? min2(s->options.self_distance, distance(m->rest, a, b)) : s->options.self_distance;
+}
+
 static void visit(void *context, int other)
 {
     search *c = context;
     cipc_massspring *s = c->s;
-    double between[3];
     if (other <= c->node || !s->is_cloth[other] || is_joined(s, c->node, other)) return;
-    v3_sub(between, c->x + 3 * c->node, c->x + 3 * other);
-    if (!(v3_norm(between) < s->options.self_distance * (1 + slack))) return;
+    if (!(distance(c->x, c->node, other) < s->options.self_distance * (1 + slack))) return;
     if (!make_room(&s->near)) {
         c->full = true;
         return;
     }
-    s->near.pairs[s->near.count][0] = c->node;
-    s->near.pairs[s->near.count++][1] = other;
+    s->near.pairs[s->near.count++] = (massspring_near_pair){{c->node, other}, kept_apart(s, c->node, other)};
 }
 
 /* In the order of their nodes: so forces add up alike, whenever the list was made. */
 static int compare_pairs(const void *p, const void *q)
 {
-    const int *a = p, *b = q;
+    const int *a = ((const massspring_near_pair *)p)->node, *b = ((const massspring_near_pair *)q)->node;
     return a[0] != b[0] ? (a[0] > b[0]) - (a[0] < b[0]) : (a[1] > b[1]) - (a[1] < b[1]);
 }
 
@@ -101,15 +112,16 @@ static bool list_serves(const cipc_massspring *s, const double *x)
 /* ---- Forces ---- */
 
 /* Half springs of the repulsion's stiffness, and Coulomb friction of what they push, at most what stops the sliding. */
-static void push_apart(cipc_massspring *s, int node, int other, const double *x, const double *v)
+static void push_apart(cipc_massspring *s, const massspring_near_pair *pair, const double *x, const double *v)
 {
+    const int node = pair->node[0], other = pair->node[1];
     double between[3], speed[3], f[3];
     v3_sub(between, x + 3 * node, x + 3 * other);
     v3_sub(speed, v + 3 * node, v + 3 * other);
-    const double distance = v3_norm(between), w = s->inverse_mass[node] + s->inverse_mass[other];
-    if (!(distance < s->options.self_distance) || !(distance > 0) || !(w > 0)) return;
-    v3_scale(between, 1 / distance, between);
-    const double push = s->options.repulsion * (s->options.self_distance - distance), along = v3_dot(speed, between);
+    const double r = v3_norm(between), w = s->inverse_mass[node] + s->inverse_mass[other];
+    if (!(r < pair->apart) || !(r > 0) || !(w > 0)) return;
+    v3_scale(between, 1 / r, between);
+    const double push = s->options.repulsion * (pair->apart - r), along = v3_dot(speed, between);
     v3_scale(f, push, between);
     v3_axpy(speed, -along, between);
     const double sliding = v3_norm(speed);
@@ -123,6 +135,6 @@ cipc_status massspring_self_forces(cipc_massspring *s, const double *x, const do
 {
     const cipc_status status = list_serves(s, x) ? CIPC_OK : make_list(s, x, error);
     s->report.self_contacts = 0;
-    for (int k = 0; k < s->near.count && !status; k++) push_apart(s, s->near.pairs[k][0], s->near.pairs[k][1], x, v);
+    for (int k = 0; k < s->near.count && !status; k++) push_apart(s, &s->near.pairs[k], x, v);
     return status;
 }

@@ -21,8 +21,12 @@ typedef struct massspring_clearance {
 } massspring_clearance;
 
 /* Pairs of nodes that may be near each other, self.c. */
+typedef struct massspring_near_pair {
+    int node[2];           /* the lower first */
+    double apart;          /* m: they are kept so far apart: as the cloth is, or as they are at rest if that is less */
+} massspring_near_pair;
 typedef struct massspring_near_list {
-    int (*pairs)[2];       /* the lower node first; in order */
+    massspring_near_pair *pairs; /* in order of their nodes */
     int count, room;
     double *at;            /* 3 * node_count: where all nodes were when it was made; NULL: cloth passes through itself */
     bool made;
