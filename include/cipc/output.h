@@ -234,7 +234,7 @@ cipc_status cipc_frames_png(const char *path, const char *trajectory_path, const
 cipc_status cipc_plots_png(const char *path, const char *stats_path, double strain_limit, double dhat, cipc_error *error);
 /* Six plots of the method asynchronous: gap with the layers' thickness, largest stretch, energies; the distribution of vertex steps (log), events per step, deepest layer. */
 cipc_status cipc_asynchronous_plots_png(const char *path, const char *stats_path, double thickness, cipc_error *error);
-/* Four plots of the method mass-spring: deformation B with its bound (0: none), contacts, energies, evaluations of bisection per hit. */
+/* Four plots of the method mass-spring: deformation B with its bound (0: none), contacts, energies, evaluations of bisection per arrival. */
 cipc_status cipc_massspring_plots_png(const char *path, const char *stats_path, double bound, cipc_error *error);
 
 #endif

@@ -68,8 +68,7 @@ massspring_bound *massspring_bound_create(const int (*ends)[2], int count, int n
     if (!b) return NULL;
     b->first = cipc_alloc((size_t)node_count + 1, sizeof *b->first);
     b->springs = cipc_alloc(2 * (size_t)count, sizeof *b->springs);
-    const bool sets = bit_set_create(&b->open, count) & bit_set_create(&b->moved, node_count);
-    if (!b->first || !b->springs || !sets) {
+    if (!b->first || !b->springs || !bit_set_create(&b->open, count) || !bit_set_create(&b->moved, node_count)) {
         massspring_bound_destroy(b);
         return NULL;
     }
