@@ -171,6 +171,10 @@ typedef struct cipc_massspring_report {
     long reversals;                /* sign changes of tangential velocity of nodes in contact: chatter */
 } cipc_massspring_report;
 
+/* How many numbers a state has to remember for this method (cipc_state_remember), so that a run can go on from it as if it had never ended: the friction of every node, and with the reading
+ * CIPC_DEFORMATION_REST_LENGTH lengths of springs. Of a state without, the integrator itself remembers. */
+int cipc_massspring_memory(const cipc_model *model, const cipc_massspring_options *options);
+
 typedef struct cipc_massspring cipc_massspring;
 /* Shells whose material has springs are cloth; other bodies that move are refused (CIPC_E_WRONG_TYPE). colliders are copied. CIPC_E_OUT_OF_RANGE on options out of range, on a step
  * that is too long if it is to be refused (the error tells the longest), and on frames of more than a million substeps. The model must outlive it. */

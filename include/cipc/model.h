@@ -179,6 +179,8 @@ typedef struct cipc_state {
     double *position, *velocity;          /* 3 * node_count; m, m/s */
     double barrier_stiffness;             /* kappa; 0: not chosen yet */
     double strain_stiffness_factor;       /* multiplies every body's strain_stiffness; starts at 1 (SPEC C.2) */
+    int memory_count;                     /* numbers that the method remembers besides; 0: none */
+    double *memory;                       /* memory_count, 0 at the start; what they are is the method's affair */
 } cipc_state;
 
 /* How all nodes moved from one instant to another: straight and evenly from each of its breaks to the next, a node without breaks all the way. */
@@ -218,6 +220,8 @@ int cipc_model_find_body(const cipc_model *model, const char *name);
 
 /* State at time 0 from the descriptions the model was built of. */
 cipc_status cipc_state_create(cipc_state **state, const cipc_body_description *bodies, int body_count, cipc_error *error);
+/* Give a state the memory that a method asks for, all 0. CIPC_E_OUT_OF_MEMORY: the state is as it was. */
+cipc_status cipc_state_remember(cipc_state *state, int count, cipc_error *error);
 void cipc_state_destroy(cipc_state *state);
 
 /* Contact thickness of a pair of nodes' primitives, (xi_a + xi_b)/2 by the bodies of one node of each (SPEC C.4, eq. 11). */

@@ -115,10 +115,6 @@ static int refused(const request *r, const char *name, const cipc_error *error)
 /* Options that the method cannot follow. Nothing is put to continuous collision detection where there is none: an empty file would look like a run without contact. */
 static cipc_status check_method(const request *r, const cipc_scene *scene, cipc_error *error)
 {
-    if (r->resume && scene->method == CIPC_METHOD_MASS_SPRING) {
-        cipc_fail(error, CIPC_E_NOT_RESUMABLE, "--resume", "the method mass-spring does not resume: what friction remembers is not in the trajectory");
-        return cipc_fail_remedy(error, "run the scene from its start, without --resume");
-    }
     if (r->record_ccd == NULL || scene->method == CIPC_METHOD_C_IPC) {
         return CIPC_OK;
     }

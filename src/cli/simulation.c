@@ -244,10 +244,8 @@ static cipc_status prepare(cipc_simulation *s)
 
 static void say_interrupted(const cipc_simulation *s)
 {
-    const bool resumes = s->scene->method != CIPC_METHOD_MASS_SPRING;
-    fprintf(stderr, "cipc: %s: interrupted by a signal after step %d of %d: %s\n", s->request->directory,
-            s->scene->state->step < s->summary.steps_taken ? s->scene->state->step : s->summary.steps_taken, s->scene->steps,
-            resumes ? "go on with --resume" : "start again, the method mass-spring does not resume");
+    fprintf(stderr, "cipc: %s: interrupted by a signal after step %d of %d: go on with --resume\n", s->request->directory,
+            s->scene->state->step < s->summary.steps_taken ? s->scene->state->step : s->summary.steps_taken, s->scene->steps);
 }
 
 /* Room for the point accepted before, for the swept monitor, and for the velocities before a step, for that of momentum. */

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "base/vector.h"
+#include "massspring/memory.h"
 #include "massspring/topology.h"
 
 /* Of the step up to which springs and repulsion together are stable: friction is not in it, which is limited by what it acts on (forces.c), and near the limit itself the fastest modes swing wide
@@ -265,11 +266,13 @@ cipc_status cipc_massspring_step(cipc_massspring *s, cipc_state *state, cipc_mas
     const int n = 3 * s->model->node_count;
     cipc_status status = CIPC_OK;
     s->report = (cipc_massspring_report){.substeps = s->substeps, .substep = s->h};
+    massspring_recall(s, state);
     for (int k = 0; k < s->substeps && !status; k++) status = substep(s, state->step * s->options.frame + k * s->h, state->position, state->velocity, error);
     for (int i = 0; i < n && !status; i++)
         if (!isfinite(state->position[i]) || !isfinite(state->velocity[i]))
             status = cipc_fail(error, CIPC_E_NO_PROGRESS, "mass-spring", "step %d: node %d is no longer anywhere: a shorter step is needed", state->step + 1, i / 3);
     if (status) return status;
+    massspring_remember(s, state);
     measure(s, state->position, state->velocity);
     *report = s->report;
     state->step++;

@@ -27,9 +27,20 @@ cipc_status cipc_state_create(cipc_state **state, const cipc_body_description *b
     return CIPC_OK;
 }
 
+cipc_status cipc_state_remember(cipc_state *state, int count, cipc_error *error)
+{
+    double *memory = cipc_alloc((size_t)count, sizeof *memory);
+    if (!memory) return cipc_fail(error, CIPC_E_OUT_OF_MEMORY, "state", "no memory for %d numbers", count);
+    cipc_free(state->memory);
+    state->memory = memory;
+    state->memory_count = count;
+    return CIPC_OK;
+}
+
 void cipc_state_destroy(cipc_state *state)
 {
     if (!state) return;
+    cipc_free(state->memory);
     cipc_free(state->position);
     cipc_free(state->velocity);
     cipc_free(state);

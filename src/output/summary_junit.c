@@ -59,8 +59,7 @@ static void judge_steps(const cipc_run_summary *s, bool violated, cipc_junit_cas
         put_error(c, s->error);
     } else if (s->interrupted || s->steps_taken < s->steps_asked) {
         c->outcome = CIPC_JUNIT_ERROR;
-        snprintf(c->message, sizeof c->message, "interrupted after step %d of %d%s", s->steps_taken, s->steps_asked,
-                 s->method == CIPC_METHOD_MASS_SPRING ? "; the method mass-spring does not resume" : ": go on with --resume");
+        snprintf(c->message, sizeof c->message, "interrupted after step %d of %d: go on with --resume", s->steps_taken, s->steps_asked);
     } else if (!s->converged) {
         c->outcome = CIPC_JUNIT_FAILED;
         snprintf(c->message, sizeof c->message, "a step did not converge");

@@ -101,7 +101,7 @@ cipc_status cipc_trajectory_create(cipc_trajectory **trajectory, const char *pat
     }
     silence before = silence_begin();
     cipc_trajectory_file made = CIPC_TRAJECTORY_FILE_CLOSED;
-    bool good = cipc_trajectory_file_make(&made, t->temporary, model->node_count, first_room(room, 1)) &&
+    bool good = cipc_trajectory_file_make(&made, t->temporary, model->node_count, state->memory_count, first_room(room, 1)) &&
                 cipc_trajectory_topology_write(made.file, model, scene_json) && cipc_trajectory_file_append(&made, state);
     status = publish(t, &made, good, error);
     silence_end(before);
@@ -120,7 +120,8 @@ static bool copy_frames(const cipc_trajectory_file *from, cipc_trajectory_file *
     cipc_state frame = {.node_count = from->node_count};
     frame.position = cipc_alloc(numbers, sizeof(double));
     frame.velocity = cipc_alloc(numbers, sizeof(double));
-    bool good = frame.position != NULL && frame.velocity != NULL;
+    frame.memory = cipc_alloc((size_t)from->memory_count, sizeof(double));
+    bool good = frame.position != NULL && frame.velocity != NULL && frame.memory != NULL;
     if (!good) {
         errno = ENOMEM;
     }
@@ -129,6 +130,7 @@ static bool copy_frames(const cipc_trajectory_file *from, cipc_trajectory_file *
     }
     cipc_free(frame.position);
     cipc_free(frame.velocity);
+    cipc_free(frame.memory);
     return good;
 }
 
@@ -137,7 +139,7 @@ static cipc_status change_room(cipc_trajectory *t, int room, cipc_error *error)
 {
     cipc_trajectory_file made = CIPC_TRAJECTORY_FILE_CLOSED;
     errno = 0;
-    bool good = cipc_trajectory_file_make(&made, t->temporary, t->file.node_count, room) &&
+    bool good = cipc_trajectory_file_make(&made, t->temporary, t->file.node_count, t->file.memory_count, room) &&
                 cipc_trajectory_topology_copy(t->file.file, made.file) && copy_frames(&t->file, &made);
     return publish(t, &made, good, error);
 }
@@ -176,6 +178,14 @@ static cipc_status check_same_run(const cipc_trajectory *t, const cipc_model *mo
     return status;
 }
 
+static cipc_status check_memory(const cipc_trajectory *t, const cipc_state *state, cipc_error *error)
+{
+    if (t->file.memory_count == state->memory_count) {
+        return CIPC_OK;
+    }
+    return cipc_fail(error, CIPC_E_NOT_RESUMABLE, t->path, "the trajectory remembers %d numbers a frame besides positions and velocities, the method %d", t->file.memory_count, state->memory_count);
+}
+
 static cipc_status read_last(const cipc_trajectory *t, cipc_state *state, cipc_error *error)
 {
     cipc_state last = *state;
@@ -201,6 +211,9 @@ static cipc_status open_to_resume(cipc_trajectory *t, const cipc_model *model, c
     cipc_status status = check_format(t, error);
     if (status == CIPC_OK) {
         status = check_same_run(t, model, scene_json, error);
+    }
+    if (status == CIPC_OK) {
+        status = check_memory(t, state, error);
     }
     if (status == CIPC_OK) {
         status = read_last(t, state, error);

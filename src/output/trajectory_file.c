@@ -94,10 +94,11 @@ static hid_t access_properties(void)
     return access;
 }
 
-bool cipc_trajectory_file_make(cipc_trajectory_file *f, const char *path, int node_count, int room)
+bool cipc_trajectory_file_make(cipc_trajectory_file *f, const char *path, int node_count, int memory_count, int room)
 {
     *f = CIPC_TRAJECTORY_FILE_CLOSED;
     f->node_count = node_count;
+    f->memory_count = memory_count;
     f->room = room;
     hid_t access = access_properties();
     f->file = H5Fcreate(path, H5F_ACC_TRUNC, H5P_DEFAULT, access);
@@ -113,6 +114,11 @@ bool cipc_trajectory_file_make(cipc_trajectory_file *f, const char *path, int no
         f->velocity = make_dataset(f->file, "velocities", "m/s", H5T_IEEE_F64LE, 3, dims, 1, -1, NULL);
         f->frames = make_counter(f->file);
         good = f->position >= 0 && f->velocity >= 0 && f->frames >= 0;
+    }
+    if (good && memory_count > 0) {
+        const hsize_t dims[2] = {(hsize_t)room, (hsize_t)memory_count};
+        f->memory = make_dataset(f->file, "memory", "as of the method", H5T_IEEE_F64LE, 2, dims, 1, -1, NULL);
+        good = f->memory >= 0;
     }
     for (int i = 0; i < CIPC_FRAME_SCALAR_COUNT && good; i++) {
         f->scalar[i] = make_scalar_dataset(f->file, (cipc_frame_scalar)i, (hsize_t)room);
@@ -171,6 +177,10 @@ static bool read_extents(cipc_trajectory_file *f)
             return false;
         }
     }
+    hsize_t m[3] = {p[0], 0, 0};
+    if (f->memory >= 0 && (extents(f->memory, m) != 2 || m[0] != p[0] || m[1] < 1 || m[1] > INT32_MAX)) {
+        return false;
+    }
     int64_t frames = -1;
     hsize_t none[3];
     if (extents(f->frames, none) != 0 || H5Dread(f->frames, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &frames) < 0 || frames < 0 ||
@@ -179,6 +189,7 @@ static bool read_extents(cipc_trajectory_file *f)
     }
     f->room = (int)p[0];
     f->node_count = (int)p[1];
+    f->memory_count = (int)m[1];
     f->frame_count = (int)frames;
     return true;
 }
@@ -196,6 +207,9 @@ bool cipc_trajectory_file_open(cipc_trajectory_file *f, const char *path, bool w
     f->position = open_dataset(f->file, "positions");
     f->velocity = open_dataset(f->file, "velocities");
     f->frames = open_dataset(f->file, "frames");
+    if (H5Lexists(f->file, "memory", H5P_DEFAULT) > 0) {
+        f->memory = open_dataset(f->file, "memory");
+    }
     for (int i = 0; i < CIPC_FRAME_SCALAR_COUNT; i++) {
         f->scalar[i] = open_dataset(f->file, scalars[i].name);
     }
@@ -206,7 +220,7 @@ bool cipc_trajectory_file_open(cipc_trajectory_file *f, const char *path, bool w
 bool cipc_trajectory_file_close(cipc_trajectory_file *f)
 {
     bool good = true;
-    hid_t datasets[] = {f->position, f->velocity, f->frames, f->scalar[0], f->scalar[1], f->scalar[2], f->scalar[3]};
+    hid_t datasets[] = {f->position, f->velocity, f->memory, f->frames, f->scalar[0], f->scalar[1], f->scalar[2], f->scalar[3]};
     for (size_t i = 0; i < sizeof datasets / sizeof datasets[0]; i++) {
         if (datasets[i] >= 0) {
             good = H5Dclose(datasets[i]) >= 0 && good;
@@ -221,10 +235,10 @@ bool cipc_trajectory_file_close(cipc_trajectory_file *f)
 
 typedef enum direction { READ, WRITE } direction;
 
-/* Move frame `frame` of a dataset from or to memory: `rank` 3 is a whole [node][3] array, 1 a number. */
-static bool transfer(hid_t dataset, direction way, int frame, int rank, int node_count, hid_t memory_type, void *values)
+/* Move frame `frame` of a dataset from or to memory: `rank` 3 is a whole [rows][3] array, 2 a row of numbers, 1 a number. */
+static bool transfer(hid_t dataset, direction way, int frame, int rank, int rows, hid_t memory_type, void *values)
 {
-    const hsize_t start[3] = {(hsize_t)frame, 0, 0}, count[3] = {1, (hsize_t)node_count, 3};
+    const hsize_t start[3] = {(hsize_t)frame, 0, 0}, count[3] = {1, (hsize_t)rows, 3};
     hid_t in_file = H5Dget_space(dataset), in_memory = H5Screate_simple(rank, count, NULL);
     bool good = H5Sselect_hyperslab(in_file, H5S_SELECT_SET, start, NULL, count, NULL) >= 0;
     if (way == WRITE) {
@@ -255,6 +269,7 @@ bool cipc_trajectory_file_append(cipc_trajectory_file *f, const cipc_state *stat
     const int64_t frames = f->frame_count + 1;
     bool good = transfer(f->position, WRITE, f->frame_count, 3, f->node_count, H5T_NATIVE_DOUBLE, copy.position) &&
                 transfer(f->velocity, WRITE, f->frame_count, 3, f->node_count, H5T_NATIVE_DOUBLE, copy.velocity) &&
+                (f->memory_count == 0 || transfer(f->memory, WRITE, f->frame_count, 2, f->memory_count, H5T_NATIVE_DOUBLE, copy.memory)) &&
                 transfer_scalars(f, WRITE, f->frame_count, &copy) && H5Fflush(f->file, H5F_SCOPE_LOCAL) >= 0 &&
                 H5Dwrite(f->frames, H5T_NATIVE_INT64, H5S_ALL, H5S_ALL, H5P_DEFAULT, &frames) >= 0 &&
                 H5Fflush(f->file, H5F_SCOPE_LOCAL) >= 0;
@@ -272,6 +287,9 @@ bool cipc_trajectory_file_read(const cipc_trajectory_file *f, int frame, cipc_st
     }
     if (good && state->velocity != NULL) {
         good = transfer(f->velocity, READ, frame, 3, f->node_count, H5T_NATIVE_DOUBLE, state->velocity);
+    }
+    if (good && f->memory_count > 0 && state->memory != NULL) {
+        good = transfer(f->memory, READ, frame, 2, f->memory_count, H5T_NATIVE_DOUBLE, state->memory);
     }
     return good;
 }

@@ -24,17 +24,17 @@ typedef enum cipc_frame_scalar {
 enum { CIPC_TRAJECTORY_FORMAT = 2 };
 
 typedef struct cipc_trajectory_file {
-    hid_t file, position, velocity, scalar[CIPC_FRAME_SCALAR_COUNT], frames;
+    hid_t file, position, velocity, memory, scalar[CIPC_FRAME_SCALAR_COUNT], frames; /* memory: only if memory_count > 0 */
     int format;      /* its number: 1 .. CIPC_TRAJECTORY_FORMAT */
-    int node_count;
+    int node_count, memory_count;
     int frame_count; /* whole frames */
     int room;        /* frames that the datasets have room for */
 } cipc_trajectory_file;
 
-#define CIPC_TRAJECTORY_FILE_CLOSED ((cipc_trajectory_file){-1, -1, -1, {-1, -1, -1, -1}, -1, 0, 0, 0, 0})
+#define CIPC_TRAJECTORY_FILE_CLOSED ((cipc_trajectory_file){-1, -1, -1, -1, {-1, -1, -1, -1}, -1, 0, 0, 0, 0, 0})
 
 /* A new file of empty datasets; no frames yet. */
-bool cipc_trajectory_file_make(cipc_trajectory_file *f, const char *path, int node_count, int room);
+bool cipc_trajectory_file_make(cipc_trajectory_file *f, const char *path, int node_count, int memory_count, int room);
 /* An existing one; false also if its datasets are not those of a trajectory. */
 bool cipc_trajectory_file_open(cipc_trajectory_file *f, const char *path, bool writable);
 /* Closes what is open. */
@@ -42,7 +42,7 @@ bool cipc_trajectory_file_close(cipc_trajectory_file *f);
 
 /* Write frame number frame_count and raise the counter; there must be room. */
 bool cipc_trajectory_file_append(cipc_trajectory_file *f, const cipc_state *state);
-/* Read frame number `frame`; state's arrays are the caller's, either may be NULL. */
+/* Read frame number `frame`; state's arrays are the caller's, each may be NULL. Its memory_count is not looked at: it has to be the file's. */
 bool cipc_trajectory_file_read(const cipc_trajectory_file *f, int frame, cipc_state *state);
 /* The times of the first `count` frames. */
 bool cipc_trajectory_file_times(const cipc_trajectory_file *f, int count, double *times);

@@ -76,6 +76,10 @@ static void build(scene_reader *r, const scene_cursor *root, const scene_bodies 
     scene_read_dirichlet(r, root, bodies, scene->model);
     scene_read_loads(r, root, bodies, scene->model);
     scene_check_method(r, root, bodies, scene);
+    if (r->status == CIPC_OK && scene->method == CIPC_METHOD_MASS_SPRING) {
+        status = cipc_state_remember(scene->state, cipc_massspring_memory(scene->model, &scene->massspring), &error);
+        if (status != CIPC_OK) reject_model(r, root, bodies, status, &error);
+    }
     scene_check_colliders(r, root, scene);
     read_subject(r, root, bodies, scene);
 }

@@ -231,7 +231,7 @@ static void test_verdicts_of_the_method_mass_spring(void **state)
     assert_cases(&s, ".SSS.SSS.", "not checked: explicit steps minimise no potential");
     s.steps_taken = 3;
     s.interrupted = true;
-    assert_cases(&s, "ESSS.SSS.", "interrupted after step 3 of 4; the method mass-spring does not resume");
+    assert_cases(&s, "ESSS.SSS.", "interrupted after step 3 of 4: go on with --resume");
 }
 
 static void test_verdicts_of_runs_that_went_wrong(void **state)

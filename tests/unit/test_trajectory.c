@@ -177,6 +177,45 @@ static void test_resume_restores_everything(void **state)
     sample_run_destroy(&other);
 }
 
+/* What a method remembers is written with every frame, also of a file that grows, and comes back with the last one; methods that remember nothing have no such dataset. */
+static void test_memory_comes_back(void **state)
+{
+    fixture *f = *state;
+    enum { COUNT = 5 };
+    sample_run other = sample_run_create();
+    cipc_error error;
+    cipc_trajectory *t;
+    double memory[COUNT];
+    write_frames(f, 3, 3);
+    hid_t plain = H5Fopen(f->file.text, H5F_ACC_RDONLY, H5P_DEFAULT);
+    assert_true(H5Lexists(plain, "memory", H5P_DEFAULT) == 0);
+    H5Fclose(plain);
+    sample_run_destroy(&f->run);
+    f->run = sample_run_create();
+    accept(cipc_state_remember(f->run.state, COUNT, &error), &error);
+    accept(cipc_state_remember(other.state, COUNT, &error), &error);
+    accept(cipc_trajectory_create(&t, f->file.text, f->run.model, f->run.state, scene, 2, &error), &error);
+    for (int k = 1; k <= 6; k++) {
+        sample_run_advance(&f->run);
+        for (int i = 0; i < COUNT; i++) memory[i] = f->run.state->memory[i] = k + 0.1 * i;
+        accept(cipc_trajectory_append(t, f->run.state, &error), &error);
+    }
+    accept(cipc_trajectory_close(t, &error), &error);
+    assert_int_equal(first_extent(f->file.text, "memory"), 7);
+    assert_int_equal(check_frames(&f->file, 7), 7);
+    accept(cipc_trajectory_resume(&t, f->file.text, other.model, other.state, scene, 20, &error), &error);
+    accept(cipc_trajectory_close(t, &error), &error);
+    assert_bits_equal(other.state->memory, memory, COUNT);
+    assert_bits_equal(other.state->position, f->run.state->position, 3 * other.state->node_count);
+    const int step = other.state->step = 77;
+    for (int count = COUNT - 1; count <= COUNT + 1; count += 2) { /* of another number of things: refused, and the state stays */
+        accept(cipc_state_remember(other.state, count, &error), &error);
+        assert_int_equal(cipc_trajectory_resume(&t, f->file.text, other.model, other.state, scene, 20, &error), CIPC_E_NOT_RESUMABLE);
+        assert_true(other.state->step == step && other.state->memory[0] == 0);
+    }
+    sample_run_destroy(&other);
+}
+
 /* Silence is part of the contract: nothing on stderr, and the caller's HDF5 error handler is back in place. */
 static cipc_status resume_quietly(fixture *f, const cipc_model *model, cipc_state *into, const char *json, cipc_error *error)
 {
@@ -204,6 +243,29 @@ static cipc_status resume_quietly(fixture *f, const cipc_model *model, cipc_stat
     free(file_read(&log, &size));
     assert_int_equal(size, 0);
     return status;
+}
+
+/* A memory of as many frames as there are not: no trajectory. */
+static void test_memory_of_other_frames_is_refused(void **state)
+{
+    fixture *f = *state;
+    cipc_error error;
+    int frames;
+    write_frames(f, 3, 3);
+    const hsize_t shapes[][2] = {{2, 5}, {3, 0}, {15, 0}};
+    for (size_t k = 0; k < sizeof shapes / sizeof shapes[0]; k++) {
+        hid_t file = H5Fopen(f->file.text, H5F_ACC_RDWR, H5P_DEFAULT), space = H5Screate_simple(k < 2 ? 2 : 1, shapes[k], NULL);
+        if (k > 0) {
+            assert_true(H5Ldelete(file, "memory", H5P_DEFAULT) >= 0);
+        }
+        hid_t dataset = H5Dcreate(file, "memory", H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+        assert_true(dataset >= 0);
+        H5Dclose(dataset);
+        H5Sclose(space);
+        H5Fclose(file);
+        assert_int_equal(cipc_trajectory_count(f->file.text, &frames, &error), CIPC_E_IO);
+        assert_int_equal(resume_quietly(f, f->run.model, f->run.state, scene, &error), CIPC_E_NOT_RESUMABLE);
+    }
 }
 
 static void test_resume_with_another_scene_is_refused(void **state)
@@ -711,6 +773,8 @@ int main(void)
         cmocka_unit_test_setup_teardown(test_closed_file_has_no_empty_frames, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_same_run_gives_the_same_bytes, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_resume_restores_everything, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_memory_comes_back, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_memory_of_other_frames_is_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_resume_with_another_scene_is_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_resume_with_another_model_is_refused, set_up, tear_down),
         cmocka_unit_test_setup_teardown(test_topology_of_every_kind, set_up, tear_down),
