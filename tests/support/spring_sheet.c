@@ -10,6 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include <gsl/gsl_rng.h>
+
 static double *numbers(int count)
 {
     double *p = calloc((size_t)count, sizeof *p);
@@ -76,6 +78,22 @@ static void pick(double six[6], const int ends[2], const double *values)
 {
     memcpy(six, values + 3 * ends[0], 3 * sizeof *six);
     memcpy(six + 3, values + 3 * ends[1], 3 * sizeof *six);
+}
+
+void spring_sheet_crumple(spring_sheet *s, unsigned long seed, double by)
+{
+    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
+    assert_non_null(rng);
+    gsl_rng_set(rng, seed);
+    for (int i = 0; i < 3 * s->node_count; i++) {
+        s->x[i] += by * (2 * gsl_rng_uniform(rng) - 1);
+        s->v[i] = 2 * gsl_rng_uniform(rng) - 1;
+    }
+    for (int i = 0; i < s->node_count; i++) {
+        s->mass[i] *= 0.5 + gsl_rng_uniform(rng);
+        s->inverse_mass[i] = 1 / s->mass[i];
+    }
+    gsl_rng_free(rng);
 }
 
 void spring_sheet_forces(spring_sheet *s)

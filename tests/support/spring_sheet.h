@@ -23,6 +23,9 @@ typedef struct spring_sheet {
 void spring_sheet_init(spring_sheet *sheet, double d, int columns, int rows, double surface_density, const cipc_spring *spring, double bending);
 void spring_sheet_free(spring_sheet *sheet);
 
+/* Every coordinate moves by up to `by`, velocities are up to 1 m/s in each, masses become 0.5 to 1.5 of what they were. */
+void spring_sheet_crumple(spring_sheet *sheet, unsigned long seed, double by);
+
 /* Forces of springs and gravity at x, v. */
 void spring_sheet_forces(spring_sheet *sheet);
 /* One step of semi-implicit Euler; drag is implicit, so that the step stays stable. */

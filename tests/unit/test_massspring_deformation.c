@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include <gsl/gsl_rng.h>
-
 #include "cipc/massspring.h"
 #include "support/spring_sheet.h"
 
@@ -94,21 +92,6 @@ static total total_of(const spring_sheet *s)
     return t;
 }
 
-static void crumple(spring_sheet *s, unsigned long seed, double by)
-{
-    gsl_rng *rng = gsl_rng_alloc(gsl_rng_mt19937);
-    gsl_rng_set(rng, seed);
-    for (int i = 0; i < 3 * s->node_count; i++) {
-        s->x[i] += by * (2 * gsl_rng_uniform(rng) - 1);
-        s->v[i] = 2 * gsl_rng_uniform(rng) - 1;
-    }
-    for (int i = 0; i < s->node_count; i++) { /* unequal masses */
-        s->mass[i] *= 0.5 + gsl_rng_uniform(rng);
-        s->inverse_mass[i] = 1 / s->mass[i];
-    }
-    gsl_rng_free(rng);
-}
-
 /* Free sheets with every edge out by up to a half: bounded afterwards, momentum and centre of mass as before. Roundings: some per spring and sweep, of the sums' size. */
 static void test_crumpled_sheets(void **state)
 {
@@ -118,7 +101,7 @@ static void test_crumpled_sheets(void **state)
         enum { SWEEPS = 5000 };
         spring_sheet s;
         spring_sheet_init(&s, 1, 8, 9, 1, &spring, 0);
-        crumple(&s, seed, 0.3);
+        spring_sheet_crumple(&s, seed, 0.3);
         const int count = s.topology.structural_count;
         assert_true(cipc_deformation_greatest(s.springs, (const int(*)[2])s.topology.ends, count, s.x) > 3 * BOUND);
         const total before = total_of(&s);
@@ -144,7 +127,7 @@ static void test_held_nodes(void **state)
     static const int corner[2] = {0, 8};
     spring_sheet s;
     spring_sheet_init(&s, 1, 8, 9, 1, &spring, 0);
-    crumple(&s, 6, 0.3);
+    spring_sheet_crumple(&s, 6, 0.3);
     double x[6], v[6], greatest;
     for (int i = 0; i < 2; i++) {
         s.inverse_mass[corner[i]] = 0;
