@@ -68,9 +68,10 @@ void cipc_spring_force(const cipc_spring *spring, const double x[6], const doubl
 double cipc_spring_stiffness_of_sheet(double young, double thickness);
 /* A step up to which semi-implicit Euler (v += h M^-1 (-K x - C v), then x += h v) is stable, s: h^2 k + 2 h c = 4, that is (2/omega) (sqrt(1 + zeta^2) - zeta), with the bounds of
  * Gershgorin for K and C over the mass at the worst node: twice the sum of its springs' stiffness or damping over its mass, once where the other end is held (inverse mass 0). Exact for two
- * equal masses, or one, and a spring; on the safe side otherwise. `push`, N/m, is stiffness that acts on every node besides, of what does not move; 0: none. INFINITY: nothing can oscillate;
+ * equal masses, or one, and a spring; on the safe side otherwise. `push`, N/m, is stiffness that acts on every node besides, of what does not move, `drag`, 1/s, damping over mass;
+ * 0: none. INFINITY: nothing can oscillate;
  * 0: the sums are beyond all numbers; NAN: no memory. */
-double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2], int count, double push, const double *inverse_mass, int node_count);
+double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2], int count, double push, double drag, const double *inverse_mass, int node_count);
 
 /* ---- Deformation coefficient (SPEC B.2) ---------------------------------------------------------------------------------------------------------- */
 

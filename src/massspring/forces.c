@@ -30,7 +30,7 @@ static void add_wind(cipc_massspring *s, const double *x, const double *v)
         const int *n = *s->triangles[t];
         const double *const corners[3] = {x + 3 * n[0], x + 3 * n[1], x + 3 * n[2]}, *const speeds[3] = {v + 3 * n[0], v + 3 * n[1], v + 3 * n[2]};
         double f[3];
-        massspring_wind_force(s->options.wind_pressure, s->options.wind, corners, speeds, f);
+        massspring_wind_force(s->options.wind_pressure, s->options.wind, s->areas[t], corners, speeds, f);
         for (int i = 0; i < 3; i++) v3_axpy(s->force + 3 * n[i], 1, f);
     }
 }

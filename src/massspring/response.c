@@ -5,20 +5,36 @@
 
 #include "base/vector.h"
 
-/* The first body in the way of x to x + d. */
-static cipc_bisection_result first_hit(cipc_massspring *s, int node, const double x[3], const double d[3], int *collider)
+typedef struct free_way {
+    double way[3]; /* m: what is left of it */
+    double part;   /* of the way asked for */
+    int collider;  /* that ends it; -1: none */
+    bool looked;   /* bisection had to look */
+} free_way;
+
+static bool cut_at(cipc_massspring *s, int node, int collider, const double x[3], free_way *f)
 {
-    cipc_bisection_result first = {.hit = false, .t = 1};
-    const double length = v3_norm(d);
-    for (int c = 0; c < s->collider_count; c++) {
-        if (massspring_is_clear(s, node, c, x, length)) continue;
-        const cipc_bisection_result r = cipc_bisection(s->options.bisection, &s->colliders[c], x, d, s->options.threshold);
-        s->report.iterations += r.iterations;
-        if (!r.hit || r.t > first.t) continue;
-        first = r;
-        *collider = c;
+    if (massspring_is_clear(s, node, collider, x, v3_norm(f->way))) return false;
+    const cipc_bisection_result r = cipc_bisection(s->options.bisection, &s->colliders[collider], x, f->way, s->options.threshold);
+    s->report.iterations += r.iterations;
+    if (!r.hit) return false;
+    v3_scale(f->way, r.t, f->way);
+    f->part *= r.t;
+    f->collider = collider;
+    f->looked = f->looked || r.iterations > 0;
+    return true;
+}
+
+/* The part of the way d from x after which the node is outside of all bodies. Of a way only the end is looked at; so what one body leaves of it has an end that has to be looked at again, for the others. */
+static free_way free_of_bodies(cipc_massspring *s, int node, const double x[3], const double d[3])
+{
+    free_way f = {.part = 1, .collider = -1};
+    v3_copy(f.way, d);
+    for (bool cut = true; cut && f.part > 0;) {
+        cut = false;
+        for (int c = 0; c < s->collider_count && f.part > 0; c++) cut |= cut_at(s, node, c, x, &f);
     }
-    return first;
+    return f;
 }
 
 /* Without what points inward; returns that, m/s or m. */
@@ -34,30 +50,28 @@ static double take_inward(double v[3], const double normal[3])
 static void slide_on(cipc_massspring *s, int node, double x[3], const double d[3], double rest, const double normal[3])
 {
     double way[3];
-    int collider;
     v3_scale(way, rest, d);
     take_inward(way, normal);
-    const cipc_bisection_result r = first_hit(s, node, x, way, &collider);
-    v3_axpy(x, r.t, way);
+    const free_way f = free_of_bodies(s, node, x, way);
+    v3_add(x, x, f.way);
 }
 
 void massspring_respond(cipc_massspring *s, int node, double x[3], double v[3])
 {
     double d[3], normal[3];
-    int collider = -1;
     v3_scale(d, s->h, v);
-    const cipc_bisection_result hit = first_hit(s, node, x, d, &collider);
-    v3_axpy(x, hit.t, d);
-    if (!hit.hit) return;
+    const free_way f = free_of_bodies(s, node, x, d);
+    v3_add(x, x, f.way);
+    if (f.collider < 0) return;
     s->report.hits++;
-    s->report.arrivals += hit.iterations > 0;
-    cipc_collider_distance(&s->colliders[collider], x, normal);
+    s->report.arrivals += f.looked;
+    cipc_collider_distance(&s->colliders[f.collider], x, normal);
     s->contacts[node].impulse += s->model->mass[node] * take_inward(v, normal);
-    slide_on(s, node, x, d, 1 - hit.t, normal);
+    slide_on(s, node, x, d, 1 - f.part, normal);
 }
 
-/* Bodies that overlap push a node from one into the other: so many turns, and what is then still inside stays. */
-enum { TURNS = 4 };
+/* Bodies that overlap push a node from one into the other, nearer and nearer to where they meet: so many turns, and what is then still inside stays. */
+enum { TURNS = 100 };
 
 bool massspring_leave_bodies(cipc_massspring *s, int node, double x[3], double v[3])
 {

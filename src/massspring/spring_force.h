@@ -19,16 +19,16 @@ static inline void massspring_spring_force(const cipc_spring *spring, const doub
     v3_scale(f, tension + spring->damping * v3_dot(approach, along), along);
 }
 
-/* (14). The normal is as long as twice the area. */
-static inline void massspring_wind_force(double q, const double wind[3], const double *const x[3], const double *const v[3], double f[3])
+/* (14). The normal is as long as twice the area. The triangle counts as if it were no larger than `most`, m^2. */
+static inline void massspring_wind_force(double q, const double wind[3], double most, const double *const x[3], const double *const v[3], double f[3])
 {
     double a[3], b[3], normal[3], relative[3];
     v3_sub(a, x[1], x[0]);
     v3_sub(b, x[2], x[0]);
     v3_cross(normal, a, b);
     for (int k = 0; k < 3; k++) relative[k] = wind[k] - (v[0][k] + v[1][k] + v[2][k]) / 3;
-    const double twice_area = v3_norm(normal);
-    v3_scale(f, twice_area > 0 ? q / 6 * (v3_dot(normal, relative) / twice_area) : 0, normal);
+    const double twice_area = v3_norm(normal), counts = twice_area > 2 * most ? 2 * most / twice_area : 1;
+    v3_scale(f, twice_area > 0 ? q / 6 * counts * (v3_dot(normal, relative) / twice_area) : 0, normal);
 }
 
 #endif

@@ -20,7 +20,7 @@ static void add_spring(const cipc_spring *s, double inverse_mass, bool other_is_
 /* (9): h^2 k + 2 h c = 4, the form without a difference of near numbers. */
 static double limit_of(double k, double c) { return k > 0 || c > 0 ? 4 / (c + hypot(c, 2 * sqrt(k))) : INFINITY; }
 
-double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2], int count, double push, const double *inverse_mass, int node_count)
+double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2], int count, double push, double drag, const double *inverse_mass, int node_count)
 {
     double *sums = cipc_alloc(2 * (size_t)node_count, sizeof *sums), step = INFINITY;
     if (!sums) return (double)NAN;
@@ -30,7 +30,8 @@ double cipc_spring_stable_step(const cipc_spring *springs, const int (*ends)[2],
             add_spring(&springs[i], inverse_mass[node], !(inverse_mass[other] > 0), &sums[2 * node], &sums[2 * node + 1]);
         }
     }
-    for (int i = 0; i < node_count; i++) step = min2(step, limit_of(sums[2 * i] + inverse_mass[i] * push, sums[2 * i + 1]));
+    for (int i = 0; i < node_count; i++)
+        if (inverse_mass[i] > 0) step = min2(step, limit_of(sums[2 * i] + inverse_mass[i] * push, sums[2 * i + 1] + drag));
     cipc_free(sums);
     return step;
 }

@@ -9,7 +9,7 @@
 #include "massspring/memory.h"
 #include "massspring/topology.h"
 
-/* Of the step up to which springs and repulsion together are stable: friction is not in it, which is limited by what it acts on (forces.c), and near the limit itself the fastest modes swing wide
+/* Of the step up to which springs, repulsion and wind together are stable: friction is not in it, which is limited by what it acts on (forces.c), and near the limit itself the fastest modes swing wide
  * ((10) and what follows it). */
 static const double stable_fraction = 0.8;
 /* So many nodes can push one at a time while none is nearer to another than the pushing lets it: the kissing number. */
@@ -89,14 +89,31 @@ static cipc_status list_joined(cipc_massspring *s, cipc_error *error)
     return CIPC_OK;
 }
 
+static double area_at_rest(const cipc_model *m, int triangle)
+{
+    const int *n = m->triangles[triangle];
+    double a[3], b[3], normal[3];
+    v3_sub(a, m->rest + 3 * n[1], m->rest + 3 * n[0]);
+    v3_sub(b, m->rest + 3 * n[2], m->rest + 3 * n[0]);
+    v3_cross(normal, a, b);
+    return 0.5 * v3_norm(normal);
+}
+
+/* Of lengths, as far as wind is concerned: it counts on no larger triangles, so that the step that is chosen for these stays stable. With the bound there are none. */
+static double largest_stretch(const cipc_massspring_options *o) { return o->reading == CIPC_DEFORMATION_PROJECT && o->deformation > 0 ? 1 + o->deformation : 2; }
+
 static cipc_status find_cloth(cipc_massspring *s, cipc_error *error)
 {
     const cipc_model *m = s->model;
     cipc_status status = CIPC_OK;
     s->triangles = cipc_alloc((size_t)m->triangle_count, sizeof *s->triangles);
-    if (!s->triangles) return no_memory(error);
-    for (int t = 0; t < m->triangle_count; t++)
-        if (is_cloth_body(&m->bodies[m->triangle_body[t]])) s->triangles[s->triangle_count++] = (const int(*)[3]) & m->triangles[t];
+    s->areas = cipc_alloc((size_t)m->triangle_count, sizeof *s->areas);
+    if (!s->triangles || !s->areas) return no_memory(error);
+    for (int t = 0; t < m->triangle_count; t++) {
+        if (!is_cloth_body(&m->bodies[m->triangle_body[t]])) continue;
+        s->areas[s->triangle_count] = area_at_rest(m, t) * largest_stretch(&s->options) * largest_stretch(&s->options);
+        s->triangles[s->triangle_count++] = (const int(*)[3]) & m->triangles[t];
+    }
     for (int i = 0; i < m->node_count; i++) s->is_cloth[i] = is_cloth_body(&m->bodies[m->node_body[i]]);
     for (int b = 0; b < m->body_count && !status; b++)
         if (is_cloth_body(&m->bodies[b])) status = add_springs(s, b, true, error);
@@ -111,17 +128,28 @@ static cipc_status find_cloth(cipc_massspring *s, cipc_error *error)
 /* Half springs of repulsion: of a body on a node, and of nodes on each other, where Gershgorin's bound counts every one twice. N/m at a node. */
 static double pushing(const cipc_massspring *s) { return ((s->collider_count > 0 ? 1 : 0) + (s->options.self_distance > 0 ? 2 * most_pushing : 0)) * s->options.repulsion; }
 
-static double stable_step(const cipc_massspring *s, double push)
+/* Wind brakes: (14) has q A/9 between any two corners of a triangle, in a row of the matrix q A/3, over the node's mass, which is a third of its triangles' too, q over the mass per area. 1/s. */
+static double braking(const cipc_massspring *s)
 {
-    return stable_fraction * cipc_spring_stable_step(s->springs, (const int(*)[2])s->ends, s->spring_count, push, s->inverse_mass, s->model->node_count);
+    const double stretch = largest_stretch(&s->options);
+    double lightest = INFINITY;
+    for (int b = 0; b < s->model->body_count; b++)
+        if (is_cloth_body(&s->model->bodies[b])) lightest = fmin(lightest, s->model->bodies[b].material.density * s->model->bodies[b].material.thickness);
+    return s->options.wind_pressure * stretch * stretch / lightest;
+}
+
+static double stable_step(const cipc_massspring *s, double push, double drag)
+{
+    return stable_fraction * cipc_spring_stable_step(s->springs, (const int(*)[2])s->ends, s->spring_count, push, drag, s->inverse_mass, s->model->node_count);
 }
 
 static cipc_status choose_step(cipc_massspring *s, cipc_error *error)
 {
-    const double frame = s->options.frame, asked = s->options.step > 0 ? s->options.step : frame, stable = stable_step(s, pushing(s)), of_springs = stable_step(s, 0);
-    if (isnan(stable) || isnan(of_springs)) return no_memory(error);
-    if (s->options.refuse && asked > stable)
-        return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a step of %g s is too long for %s: at most %g s", asked, asked > of_springs ? "these springs" : "this repulsion", stable);
+    const double frame = s->options.frame, asked = s->options.step > 0 ? s->options.step : frame, push = pushing(s);
+    const double stable = stable_step(s, push, braking(s)), without_wind = stable_step(s, push, 0), of_springs = stable_step(s, 0, 0);
+    if (isnan(stable) || isnan(without_wind) || isnan(of_springs)) return no_memory(error);
+    const char *cause = asked > of_springs ? "these springs" : asked > without_wind ? "this repulsion" : "this wind";
+    if (s->options.refuse && asked > stable) return cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a step of %g s is too long for %s: at most %g s", asked, cause, stable);
     const double substeps = ceil(frame / fmin(asked, stable) * (1 - 1e-12));
     if (!(substeps <= most_substeps)) {
         cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a frame of %g s would take %g substeps; at most %g are allowed", frame, substeps, most_substeps);
@@ -181,7 +209,7 @@ void cipc_massspring_destroy(cipc_massspring *s)
 {
     if (!s) return;
     massspring_bound_destroy(s->bound);
-    void *blocks[] = {s->colliders, s->springs, s->ends, s->triangles, s->inverse_mass, s->force, s->target, s->is_dirichlet, s->moves, s->contacts, s->clearances, s->is_cloth, s->joined, s->near.pairs, s->near.at, s};
+    void *blocks[] = {s->colliders, s->springs, s->ends, s->triangles, s->areas, s->inverse_mass, s->force, s->target, s->is_dirichlet, s->moves, s->contacts, s->clearances, s->is_cloth, s->joined, s->near.pairs, s->near.at, s};
     for (size_t i = 0; i < sizeof blocks / sizeof *blocks; i++) cipc_free(blocks[i]);
 }
 

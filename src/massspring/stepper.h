@@ -42,6 +42,7 @@ struct cipc_massspring {
     int (*ends)[2];
     int triangle_count;            /* of cloth: wind blows on them */
     const int (**triangles)[3];
+    double *areas;                 /* m^2: as large as these count in the wind at most */
     int substeps;                  /* in a frame */
     double h;                      /* s */
     double *inverse_mass;          /* 0: prescribed now */

@@ -3,5 +3,5 @@
 
 void cipc_wind_force(double q, const double wind[3], const double x[9], const double v[9], double f[3])
 {
-    massspring_wind_force(q, wind, (const double *const[3]){x, x + 3, x + 6}, (const double *const[3]){v, v + 3, v + 6}, f);
+    massspring_wind_force(q, wind, INFINITY, (const double *const[3]){x, x + 3, x + 6}, (const double *const[3]){v, v + 3, v + 6}, f);
 }

@@ -29,7 +29,7 @@ static spring_sheet hang_up(void)
     s.inverse_mass[0] = s.inverse_mass[COLUMNS] = 0;
     s.gravity[1] = -9.81;
     s.drag = 2;
-    s.step = 0.9 * cipc_spring_stable_step(s.springs, ends_of(&s), s.topology.count, 0, s.inverse_mass, s.node_count);
+    s.step = 0.9 * cipc_spring_stable_step(s.springs, ends_of(&s), s.topology.count, 0, 0, s.inverse_mass, s.node_count);
     return s;
 }
 
@@ -125,7 +125,7 @@ static void test_thrown_and_spinning(void **state)
     const cipc_spring spring = {.stiffness = STIFFNESS, .damping = 0.01};
     spring_sheet s;
     spring_sheet_init(&s, EDGE, COLUMNS, ROWS, DENSITY, &spring, 0.05);
-    s.step = 0.9 * cipc_spring_stable_step(s.springs, ends_of(&s), s.topology.count, 0, s.inverse_mass, s.node_count);
+    s.step = 0.9 * cipc_spring_stable_step(s.springs, ends_of(&s), s.topology.count, 0, 0, s.inverse_mass, s.node_count);
     for (int i = 0; i < s.node_count; i++) {
         s.v[3 * i] = 1 - 12 * s.x[3 * i + 2];
         s.v[3 * i + 1] = 2;

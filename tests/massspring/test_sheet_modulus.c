@@ -87,7 +87,7 @@ static spring_sheet pull(int columns, int rows, int along)
         const bool end = along == 0 ? column == 0 || column == columns : row == 0 || row == rows;
         s.inverse_mass[i] = end ? 0 : 1 / s.mass[i];
     }
-    s.step = 0.9 * cipc_spring_stable_step(s.springs, (const int(*)[2])s.topology.ends, s.topology.count, 0, s.inverse_mass, s.node_count);
+    s.step = 0.9 * cipc_spring_stable_step(s.springs, (const int(*)[2])s.topology.ends, s.topology.count, 0, 0, s.inverse_mass, s.node_count);
     s.drag = 2 * M_PI / (along == 0 ? columns * EDGE : rows * 0.5 * sqrt(3.0) * EDGE) * sqrt(YOUNG * THICKNESS / 0.1); /* critical for the slowest wave along the strip */
     spring_sheet_settle(&s, 1e-6 * spring.stiffness * STRAIN * EDGE, 100000);
     return s;

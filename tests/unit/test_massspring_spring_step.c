@@ -46,7 +46,7 @@ static void test_both_sides_of_the_limit(void **state)
         for (int i = 0; i < 5; i++) {
             const double k = 500, w = masses[m][0] + masses[m][1], omega = sqrt(k * w);
             const cipc_spring s = {.length = 1, .stiffness = k, .damping = 2 * zeta[i] * omega / w};
-            const double h = cipc_spring_stable_step(&s, ENDS, 1, 0, masses[m], 2);
+            const double h = cipc_spring_stable_step(&s, ENDS, 1, 0, 0, masses[m], 2);
             assert_relative(h, 2 / omega * (sqrt(1 + zeta[i] * zeta[i]) - zeta[i]), 64 * DBL_EPSILON);
             assert_true(growth(&s, masses[m], 0.999 * h) < 50);
             assert_true(growth(&s, masses[m], 1.05 * h) > 1e4);
@@ -60,7 +60,7 @@ static void test_unequal_masses(void **state)
     (void)state;
     const double inverse_mass[2] = {1, 4};
     const cipc_spring s = {.length = 1, .stiffness = 2};
-    const double h = cipc_spring_stable_step(&s, ENDS, 1, 0, inverse_mass, 2);
+    const double h = cipc_spring_stable_step(&s, ENDS, 1, 0, 0, inverse_mass, 2);
     assert_relative(h, 2 / sqrt(2 * 2 * 4), 4 * DBL_EPSILON);
     assert_true(h < 2 / sqrt(2 * (1 + 4)));
 }
@@ -72,15 +72,17 @@ static void test_chains(void **state)
     static const int ends[2][2] = {{0, 1}, {1, 2}};
     const double free[3] = {1, 1, 1}, held[3] = {0, 1, 0}, none[3] = {0, 0, 0};
     const cipc_spring s[2] = {{.length = 1, .stiffness = 2}, {.length = 1, .stiffness = 2}};
-    assert_relative(cipc_spring_stable_step(s, ends, 2, 0, free, 3), 2 / sqrt(8), 4 * DBL_EPSILON);
-    assert_relative(cipc_spring_stable_step(s, ends, 2, 0, held, 3), 2 / sqrt(4), 4 * DBL_EPSILON);
-    assert_true(isinf(cipc_spring_stable_step(s, ends, 2, 0, none, 3)));
-    assert_true(isinf(cipc_spring_stable_step(s, ends, 0, 0, free, 3)));
-    assert_relative(cipc_spring_stable_step(s, ends, 2, 5, free, 3), 2 / sqrt(8 + 5), 4 * DBL_EPSILON); /* pushed by what does not move: once */
-    assert_relative(cipc_spring_stable_step(s, ends, 0, 5, (const double[3]){1, 4, 0}, 3), 2 / sqrt(20), 4 * DBL_EPSILON);
+    assert_relative(cipc_spring_stable_step(s, ends, 2, 0, 0, free, 3), 2 / sqrt(8), 4 * DBL_EPSILON);
+    assert_relative(cipc_spring_stable_step(s, ends, 2, 0, 0, held, 3), 2 / sqrt(4), 4 * DBL_EPSILON);
+    assert_true(isinf(cipc_spring_stable_step(s, ends, 2, 0, 0, none, 3)));
+    assert_true(isinf(cipc_spring_stable_step(s, ends, 0, 0, 0, free, 3)));
+    assert_relative(cipc_spring_stable_step(s, ends, 2, 5, 0, free, 3), 2 / sqrt(8 + 5), 4 * DBL_EPSILON); /* pushed by what does not move: once */
+    assert_relative(cipc_spring_stable_step(s, ends, 0, 5, 0, (const double[3]){1, 4, 0}, 3), 2 / sqrt(20), 4 * DBL_EPSILON);
+    assert_relative(cipc_spring_stable_step(s, ends, 2, 0, 3, free, 3), 4 / (3 + sqrt(9 + 4 * 8)), 4 * DBL_EPSILON); /* and braked: over the mass already */
+    assert_relative(cipc_spring_stable_step(s, ends, 0, 0, 3, held, 3), 2.0 / 3, 4 * DBL_EPSILON);
     const cipc_spring damped[2] = {{.length = 1, .stiffness = 2}, {.length = 1, .damping = 3}};
     const double c = 6, k = 4; /* the middle node's sums: h = 4/(c + sqrt(c^2 + 4 k)) */
-    assert_relative(cipc_spring_stable_step(damped, ends, 2, 0, free, 3), 4 / (c + sqrt(c * c + 4 * k)), 8 * DBL_EPSILON);
+    assert_relative(cipc_spring_stable_step(damped, ends, 2, 0, 0, free, 3), 4 / (c + sqrt(c * c + 4 * k)), 8 * DBL_EPSILON);
 }
 
 /* A buckled spring is never steeper than 12 pi^2 k_b/L^3, and nearly so when its ends meet. */
@@ -94,9 +96,9 @@ static void test_steepness_of_the_arc(void **state)
     for (int i = 0; i < 1000; i++) steepest = fmax(steepest, (cipc_spring_tension(&s, 1e-3 * (i + 0.99)) - cipc_spring_tension(&s, 1e-3 * i)) / 0.99e-3);
     assert_true(steepest < bound && steepest > 0.99 * bound);
     s.stiffness = 1;
-    assert_relative(cipc_spring_stable_step(&s, ENDS, 1, 0, inverse_mass, 2), 2 / sqrt(bound), 8 * DBL_EPSILON);
+    assert_relative(cipc_spring_stable_step(&s, ENDS, 1, 0, 0, inverse_mass, 2), 2 / sqrt(bound), 8 * DBL_EPSILON);
     s.stiffness = 100;
-    assert_relative(cipc_spring_stable_step(&s, ENDS, 1, 0, inverse_mass, 2), 0.2, 8 * DBL_EPSILON);
+    assert_relative(cipc_spring_stable_step(&s, ENDS, 1, 0, 0, inverse_mass, 2), 0.2, 8 * DBL_EPSILON);
 }
 
 static void test_no_memory(void **state)
@@ -105,7 +107,7 @@ static void test_no_memory(void **state)
     const double inverse_mass[2] = {1, 1};
     const cipc_spring s = {.length = 1, .stiffness = 2};
     fail_allocation(1);
-    assert_true(isnan(cipc_spring_stable_step(&s, ENDS, 1, 0, inverse_mass, 2)));
+    assert_true(isnan(cipc_spring_stable_step(&s, ENDS, 1, 0, 0, inverse_mass, 2)));
     fail_allocation(0);
 }
 

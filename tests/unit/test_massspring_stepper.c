@@ -128,6 +128,76 @@ static void test_stiff_repulsion(void **state)
     finish(&c);
 }
 
+/* Light cloth in thick air brakes faster than its springs swing: that shortens the step as well, or the sheet would swing up in still air. */
+static void test_wind_is_in_the_step(void **state)
+{
+    (void)state;
+    cloth c;
+    start(&c, 1, 0);
+    build(&c);
+    steps(&c, 1);
+    const int by_springs = c.report.substeps;
+    cipc_massspring_destroy(c.integrator);
+    c.options.wind_pressure = 2000; /* of 0.3 kg/m^2: 1/s 6667 */
+    build(&c);
+    steps(&c, 30);
+    assert_true(c.report.substeps > 1.5 * by_springs);
+    const double drag = 2000 / 0.3 * 1.1 * 1.1, h = c.options.frame / c.report.substeps;
+    assert_true(h * drag < 2 * 0.8 && c.report.kinetic < 1e-6); /* it sinks at 1.5 mm/s */
+    cipc_massspring_destroy(c.integrator);
+    c.options.step = c.options.frame / by_springs;
+    c.options.refuse = true;
+    assert_int_equal(cipc_massspring_create(&c.integrator, c.sheet.model, NULL, 0, &c.options, &c.error), CIPC_E_OUT_OF_RANGE);
+    assert_non_null(strstr(c.error.what, "wind"));
+    finish(&c);
+}
+
+/* Springs that give way for good let wind blow triangles up beyond what the step was chosen for: they do not count for more, or the sheet would tear itself to infinity. */
+static void test_wind_on_plastic_cloth(void **state)
+{
+    (void)state;
+    cloth c;
+    start(&c, 1, 0);
+    c.options.wind_pressure = 140;
+    c.options.wind[1] = 20, c.options.wind[2] = -21;
+    c.options.deformation = 0.01;
+    c.options.reading = CIPC_DEFORMATION_REST_LENGTH;
+    c.sheet.model->bodies[0].material.damping_stiffness = 0;
+    build(&c);
+    double mass = 0;
+    for (int i = 0; i < c.sheet.model->node_count; i++) mass += c.sheet.model->mass[i];
+    for (int i = 0; i < 3 * c.sheet.model->node_count; i++) c.sheet.state->velocity[i] = i % 3 == 1 ? 0 : 100 * (c.sheet.state->position[i] - c.sheet.state->position[i % 3]); /* drawn out to many times its size */
+    steps(&c, 5);
+    for (int k = 0; k < 60; k++) {
+        steps(&c, 1);
+        assert_true(c.report.kinetic < 0.5 * mass * (20 * 20 + 21 * 21 + 50)); /* no faster than the wind, and gravity a little */
+    }
+    finish(&c);
+}
+
+/* A disc stands in front of a wall of air before a ball: of the way that ends in the ball, what is left ends in the disc, which the whole way passes through. No node may be left in there. */
+static void test_a_cut_way_is_looked_at_again(void **state)
+{
+    (void)state;
+    const cipc_collider bodies[2] = {{.kind = CIPC_COLLIDER_BOX, .center = {0, 0.5, 0}, .half = {1, 0.01, 1}, .friction = 0}, {.kind = CIPC_COLLIDER_SPHERE, .center = {0, -0.5, 0}, .half = {1}, .friction = 0}};
+    for (int order = 0; order < 2; order++) {
+        cloth c;
+        start(&c, 0.52, 0);
+        c.options.threshold = 0.05;
+        c.options.deformation = 0;
+        c.options.step = 1;
+        c.options.frame = 1e-3;
+        for (int i = 0; i < c.sheet.model->node_count; i++) c.sheet.state->velocity[3 * i + 1] = -1000; /* 1 m in a step, if springs allow */
+        const cipc_collider both[2] = {bodies[order], bodies[1 - order]};
+        assert_int_equal(cipc_massspring_create(&c.integrator, c.sheet.model, both, 2, &c.options, &c.error), CIPC_OK);
+        steps(&c, 1);
+        assert_true(c.report.hits > 0);
+        for (int i = 0; i < c.sheet.model->node_count; i++)
+            for (int k = 0; k < 2; k++) assert_true(cipc_collider_distance(&bodies[k], c.sheet.state->position + 3 * i, NULL) >= 0);
+        finish(&c);
+    }
+}
+
 /* More substeps than an int holds were once none at all, and the run ended well without a step. */
 static void test_endless_frames_are_refused(void **state)
 {
@@ -278,7 +348,8 @@ static void test_refusals(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_free_fall), cmocka_unit_test(test_long_steps), cmocka_unit_test(test_stiff_repulsion), cmocka_unit_test(test_endless_frames_are_refused), cmocka_unit_test(test_sliding_stops), cmocka_unit_test(test_rest_on_a_slope), cmocka_unit_test(test_cloth_on_a_ball),
+        cmocka_unit_test(test_free_fall), cmocka_unit_test(test_long_steps), cmocka_unit_test(test_stiff_repulsion), cmocka_unit_test(test_endless_frames_are_refused), cmocka_unit_test(test_wind_is_in_the_step), cmocka_unit_test(test_wind_on_plastic_cloth), cmocka_unit_test(test_a_cut_way_is_looked_at_again),
+        cmocka_unit_test(test_sliding_stops), cmocka_unit_test(test_rest_on_a_slope), cmocka_unit_test(test_cloth_on_a_ball),
         cmocka_unit_test(test_the_bound_leaves_no_node_inside), cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
