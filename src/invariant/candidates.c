@@ -257,7 +257,9 @@ static bool meet_patch(const patch_pair *p, invariant_candidate_part *part)
 {
     cipc_patch_box box = cipc_patch_tree_patch_box(&p->second->tree, p->asked);
     for (unsigned bits = cipc_patch_overlaps(&p->first->tree.levels[0][p->asking], &box); bits != 0; bits &= bits - 1) {
-        if (!meet_item(p, part, p->asking * CIPC_PATCH_SIZE + cipc_lowest_bit(bits))) { return false; }
+        int place = p->asking * CIPC_PATCH_SIZE + cipc_lowest_bit(bits);
+        bool is_there = place < p->first->count; /* a box without bounds meets the empty ones that fill up the last patch as well */
+        if (is_there && !meet_item(p, part, place)) { return false; }
     }
     return true;
 }

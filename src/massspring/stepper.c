@@ -153,7 +153,7 @@ static cipc_status choose_step(cipc_massspring *s, cipc_error *error)
     const double substeps = ceil(frame / fmin(asked, stable) * (1 - 1e-12));
     if (!(substeps <= most_substeps)) {
         cipc_fail(error, CIPC_E_OUT_OF_RANGE, "mass-spring", "a frame of %g s would take %g substeps; at most %g are allowed", frame, substeps, most_substeps);
-        return cipc_fail_remedy(error, "softer or heavier cloth, a longer mass_spring.step, or a shorter time_step");
+        return cipc_fail_remedy(error, "softer or heavier cloth, less repulsion or wind, a longer mass_spring.step, or a shorter time_step");
     }
     s->substeps = (int)substeps;
     s->h = frame / s->substeps;
@@ -260,8 +260,20 @@ static void bound_deformation(cipc_massspring *s, double *x, double *v)
     }
 }
 
-static cipc_status substep(cipc_massspring *s, double time, double *x, double *v, cipc_error *error)
+/* At once: the bound would sweep in vain over positions that are no numbers. */
+static cipc_status check_finite(const cipc_massspring *s, const cipc_state *state, cipc_error *error)
 {
+    for (int i = 0; i < 3 * s->model->node_count; i++) {
+        if (isfinite(state->position[i]) && isfinite(state->velocity[i])) continue;
+        cipc_fail(error, CIPC_E_NO_PROGRESS, "mass-spring", "step %d: node %d is no longer anywhere", state->step + 1, i / 3);
+        return cipc_fail_remedy(error, "a shorter mass_spring.step, or less of what drives the cloth: gravity, wind, prescribed motion");
+    }
+    return CIPC_OK;
+}
+
+static cipc_status substep(cipc_massspring *s, double time, cipc_state *state, cipc_error *error)
+{
+    double *x = state->position, *v = state->velocity;
     read_script(s, x, time);
     massspring_forces(s, x, v);
     if (s->options.self_distance > 0) {
@@ -269,8 +281,9 @@ static cipc_status substep(cipc_massspring *s, double time, double *x, double *v
         if (status) return status;
     }
     advance(s, x, v);
-    bound_deformation(s, x, v);
-    return CIPC_OK;
+    const cipc_status status = check_finite(s, state, error);
+    if (!status) bound_deformation(s, x, v);
+    return status;
 }
 
 static void measure(cipc_massspring *s, const double *x, const double *v)
@@ -291,14 +304,11 @@ static void measure(cipc_massspring *s, const double *x, const double *v)
 
 cipc_status cipc_massspring_step(cipc_massspring *s, cipc_state *state, cipc_massspring_report *report, cipc_error *error)
 {
-    const int n = 3 * s->model->node_count;
     cipc_status status = CIPC_OK;
     s->report = (cipc_massspring_report){.substeps = s->substeps, .substep = s->h};
     massspring_recall(s, state);
-    for (int k = 0; k < s->substeps && !status; k++) status = substep(s, state->step * s->options.frame + k * s->h, state->position, state->velocity, error);
-    for (int i = 0; i < n && !status; i++)
-        if (!isfinite(state->position[i]) || !isfinite(state->velocity[i]))
-            status = cipc_fail(error, CIPC_E_NO_PROGRESS, "mass-spring", "step %d: node %d is no longer anywhere: a shorter step is needed", state->step + 1, i / 3);
+    for (int k = 0; k < s->substeps && !status; k++) status = substep(s, state->step * s->options.frame + k * s->h, state, error);
+    if (!status) status = check_finite(s, state, error);
     if (status) return status;
     massspring_remember(s, state);
     measure(s, state->position, state->velocity);

@@ -192,6 +192,28 @@ static void test_extreme_positions(void **state)
     hand_model_destroy(h);
 }
 
+/* Reaches so long that boxes have no bounds: such a box meets the empty places at the end of the last patch too, which are no primitives. Several sizes, so that these are several. */
+static void test_extreme_reaches(void **state)
+{
+    (void)state;
+    fail_allocation(0);
+    for (int cells = 2; cells < 6; cells++) {
+        uint64_t seed = 81;
+        hand_model *h = mixed_scene(&seed, cells, 0.02);
+        const double reaches[] = {1e30, 1e100, 1e300};
+        for (size_t r = 0; r < sizeof reaches / sizeof reaches[0]; r++) {
+            invariant_candidates c;
+            long near[CIPC_PAIR_KIND_COUNT] = {0}, crossings = 0;
+            bool made;
+            assert_true(invariant_candidates_init(&c, &h->model, reaches[r], 0, 1, true));
+            assert_true(invariant_candidates_update(&c, h->x, &made));
+            if (reaches[r] < 1e200) { check_all(&c, h->x, true, near, &crossings); } /* beyond, the square of the reach that this holds the pairs against is no number */
+            invariant_candidates_free(&c);
+        }
+        hand_model_destroy(h);
+    }
+}
+
 static void test_lack_of_memory(void **state)
 {
     (void)state;
@@ -224,6 +246,7 @@ int main(void)
         cmocka_unit_test(test_without_margin),
         cmocka_unit_test(test_same_lists_for_any_number_of_threads),
         cmocka_unit_test(test_extreme_positions),
+        cmocka_unit_test(test_extreme_reaches),
         cmocka_unit_test(test_lack_of_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
