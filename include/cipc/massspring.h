@@ -152,7 +152,7 @@ typedef struct cipc_massspring_options {
     double breakaway;              /* Fs / Fc >= 1 */
     double damping_ratio;          /* zeta of sigma1 = 2 zeta sqrt(sigma0 m) */
     double band;                   /* dv, m/s */
-    double self_distance;          /* m: nodes of a cloth that no spring joins are kept so far apart; 0: cloth passes through itself */
+    double self_distance;          /* m: nodes of a cloth that no spring joins are kept so far apart, or 1/sqrt(2) of what they are at rest if that is less; 0: cloth passes through itself */
     double self_friction;          /* mu of cloth on itself */
 } cipc_massspring_options;
 /* frame 1/60 s, linear springs, Bmax 0.1 projected in at most 2000 sweeps, improved bisection to 1 mm, repulsion 0, R1 with presliding 1e-4 m, breakaway 1.2, damping ratio 0.5,

@@ -43,11 +43,12 @@ static double distance(const double *x, int a, int b)
     return v3_norm(between);
 }
 
-/* Cloth with edges shorter than half the distance would push itself apart at rest. Different cloths are kept apart by all of it. */
+/* Cloth with short edges would push itself apart at rest, and be stiff where it bends: the distance is meant for 1.4 edges, which is 1/sqrt(2) of what the nearest nodes that no spring joins in line, two
+ * edges away, are apart at rest. Different cloths are kept apart by all of it. */
 static double kept_apart(const cipc_massspring *s, int a, int b)
 {
     const cipc_model *m = s->model;
-    return m->node_body[a] == m->node_body[b] ? min2(s->options.self_distance, distance(m->rest, a, b)) : s->options.self_distance;
+    return m->node_body[a] == m->node_body[b] ? min2(s->options.self_distance, M_SQRT1_2 * distance(m->rest, a, b)) : s->options.self_distance;
 }
 
 static void visit(void *context, int other)

@@ -23,7 +23,7 @@ typedef struct massspring_clearance {
 /* Pairs of nodes that may be near each other, self.c. */
 typedef struct massspring_near_pair {
     int node[2];           /* the lower first */
-    double apart;          /* m: they are kept so far apart: as the cloth is, or as they are at rest if that is less */
+    double apart;          /* m: they are kept so far apart: as the cloth is, or 1/sqrt(2) of what they are at rest if that is less */
 } massspring_near_pair;
 typedef struct massspring_near_list {
     massspring_near_pair *pairs; /* in order of their nodes */

@@ -82,7 +82,7 @@ const scene_variant scene_variants[] = {
      {{"presliding", UNTOUCHED, NULL}, {"breakaway", UNTOUCHED, NULL}, {"damping ratio", UNTOUCHED, NULL}, {"band", UNTOUCHED, NULL}}},
     {"round-table", SCENE("round-table", NULL), {UNBOUND}},
     {"table-materials", SCENE("table-materials", NULL), {UNBOUND}},
-    {"dress-on-body", SCENE("dress-on-body", NULL), {{0}}},
+    {"dress-on-body", SCENE("dress-on-body", NULL), {{"self distance", "no fold comes near another", NULL}, {"self friction", "no fold comes near another", NULL}}},
     {"cloth-ball", SCENE("cloth-ball", NULL), {UNBOUND}},
     {"free-fall", SCENE("free-fall", NULL), {{"dhat", "nothing comes near", NULL}, FLAT_CLOTH}},
     {"incline", SCENE("incline", NULL), FLAT_PLATE},
