@@ -1,4 +1,4 @@
-/* Cloth against itself: nodes that no spring joins push each other apart, and rub (SPEC B.6, [R]), where they are nearer than at rest. No guarantee: nodes alone are looked at. */
+/* Cloth against itself: nodes that no spring joins push each other apart, and rub (SPEC B.6, [R]). No guarantee: nodes alone are looked at. */
 #include "massspring/stepper.h"
 
 #include <math.h>

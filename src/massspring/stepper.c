@@ -99,7 +99,7 @@ static double area_at_rest(const cipc_model *m, int triangle)
     return 0.5 * v3_norm(normal);
 }
 
-/* Of lengths, as far as wind is concerned: it counts on no larger triangles, so that the step that is chosen for these stays stable. With the bound there are none. */
+/* Of lengths, as far as wind is concerned: it counts on no larger triangles, so that the step that is chosen for these stays stable. The bound keeps those of equilateral meshes below it. */
 static double largest_stretch(const cipc_massspring_options *o) { return o->reading == CIPC_DEFORMATION_PROJECT && o->deformation > 0 ? 1 + o->deformation : 2; }
 
 static cipc_status find_cloth(cipc_massspring *s, cipc_error *error)
