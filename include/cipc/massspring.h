@@ -167,6 +167,7 @@ typedef struct cipc_massspring_report {
     long hits, arrivals, iterations; /* ways cut at a body; of these, begun farther away than the threshold, so that bisection had to look; its evaluations */
     int self_contacts;             /* pairs, in the last substep */
     int sweeps, beyond_bound;      /* of the projection, in all; substeps after which a spring was beyond Bmax (1 + 1e-3), for want of sweeps */
+    int inside;                    /* nodes inside of a body at the end: bodies that overlap may keep one */
     double deformation;            /* B, at the end */
     double kinetic, gravitational, elastic; /* J, at the end */
     long reversals;                /* sign changes of tangential velocity of nodes in contact: chatter */

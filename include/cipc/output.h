@@ -120,7 +120,7 @@ typedef struct cipc_massspring_totals {
     long frames;                    /* that the monitors looked at */
     cipc_counted intersecting, too_near; /* M1, M2 */
     long substeps, hits, arrivals, iterations, sweeps, beyond_bound, reversals;
-    int max_self_contacts;
+    int max_self_contacts, max_inside;
     double max_deformation;         /* B */
     double frame_seconds, step_seconds, monitor_seconds; /* s: simulated; of wall clock */
 } cipc_massspring_totals;

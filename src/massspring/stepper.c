@@ -286,6 +286,13 @@ static cipc_status substep(cipc_massspring *s, double time, cipc_state *state, c
     return status;
 }
 
+static bool is_inside(const cipc_massspring *s, const double x[3])
+{
+    bool inside = false;
+    for (int c = 0; c < s->collider_count; c++) inside = inside || cipc_collider_distance(&s->colliders[c], x, NULL) < 0;
+    return inside;
+}
+
 static void measure(cipc_massspring *s, const double *x, const double *v)
 {
     cipc_massspring_report *r = &s->report;
@@ -293,6 +300,7 @@ static void measure(cipc_massspring *s, const double *x, const double *v)
         if (!(s->inverse_mass[i] > 0)) continue;
         r->kinetic += 0.5 * s->model->mass[i] * v3_norm2(v + 3 * i);
         r->gravitational -= s->model->mass[i] * v3_dot(s->model->gravity, x + 3 * i);
+        r->inside += is_inside(s, x + 3 * i);
     }
     for (int k = 0; k < s->spring_count; k++) {
         double between[3];

@@ -18,6 +18,7 @@ static const cipc_field report_fields[] = {
     REPORT_FIELD(self_contacts, CIPC_FIELD_INTEGER),
     REPORT_FIELD(sweeps, CIPC_FIELD_INTEGER),
     REPORT_FIELD(beyond_bound, CIPC_FIELD_INTEGER),
+    REPORT_FIELD(inside, CIPC_FIELD_INTEGER),
     REPORT_FIELD(deformation, CIPC_FIELD_REAL),
     REPORT_FIELD(reversals, CIPC_FIELD_LONG),
 };

@@ -106,6 +106,7 @@ void cipc_massspring_summary_add(cipc_run_summary *summary, const cipc_masssprin
     totals->beyond_bound += report->beyond_bound;
     totals->reversals += report->reversals;
     totals->max_self_contacts = report->self_contacts > totals->max_self_contacts ? report->self_contacts : totals->max_self_contacts;
+    totals->max_inside = report->inside > totals->max_inside ? report->inside : totals->max_inside;
     totals->max_deformation = fmax(totals->max_deformation, report->deformation);
     totals->frame_seconds += times->frame;
     totals->step_seconds += times->step;

@@ -182,6 +182,7 @@ static json_t *extremes_object(const cipc_run_summary *summary, bool *good)
     } else if (summary->method == CIPC_METHOD_MASS_SPRING) {
         cipc_json_put(object, "max_deformation", cipc_json_number(summary->massspring.max_deformation), good);
         cipc_json_put(object, "max_self_contacts", json_integer(summary->massspring.max_self_contacts), good);
+        cipc_json_put(object, "max_inside", json_integer(summary->massspring.max_inside), good);
     } else {
         cipc_json_put(object, "max_newton_iterations", json_integer(summary->max_newton_iterations), good);
     }

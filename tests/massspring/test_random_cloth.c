@@ -137,6 +137,7 @@ static void look(const trial *t, int number, const cipc_massspring_report *r)
     const double rounding = 8 * DBL_EPSILON * (farthest + 1) / 5e-3 * (1 + r->deformation);
     if (lengths_stay && !(fabs(deformation(t) - r->deformation) <= rounding)) fail_msg("trial %d: B is %.17g, reported %.17g", number, deformation(t), r->deformation);
     if (bounded && !(deformation(t) <= o->deformation * (1 + 1e-3) + rounding)) fail_msg("trial %d: B of the mesh is %.17g, Bmax %g", number, deformation(t), o->deformation);
+    if (r->inside != 0) fail_msg("trial %d: %d nodes are said to be inside", number, r->inside);
     if (!(deepest(t) >= 0)) fail_msg("trial %d: a node is %g m inside of a body", number, -deepest(t));
     if (bounded && !(r->deformation <= o->deformation * (1 + 1e-3))) fail_msg("trial %d: B is %.17g, Bmax %g", number, r->deformation, o->deformation);
     if (!(r->kinetic < 1e6)) fail_msg("trial %d: %g J", number, r->kinetic);

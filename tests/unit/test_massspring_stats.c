@@ -16,7 +16,7 @@
 /* A report whose fields all differ. */
 static cipc_massspring_report sample_report(int step)
 {
-    return (cipc_massspring_report){.substeps = 10 + step, .substep = 1e-4, .contacts = 20 + step, .hits = 30 + step, .arrivals = 15 + step, .iterations = 60, .self_contacts = 5 - step, .sweeps = 7, .beyond_bound = 8,
+    return (cipc_massspring_report){.substeps = 10 + step, .substep = 1e-4, .contacts = 20 + step, .hits = 30 + step, .arrivals = 15 + step, .iterations = 60, .self_contacts = 5 - step, .sweeps = 7, .beyond_bound = 8, .inside = 6 - step,
                                     .deformation = 0.0625 * step, .kinetic = 0.5, .gravitational = -0.25, .elastic = 0.125, .reversals = 9};
 }
 static const cipc_massspring_times times = {.frame = 0.5, .step = 0.25, .monitor = 0.125};
@@ -71,7 +71,7 @@ static void test_every_field(void **state)
     const json_t *energy = json_object_get(line, "energy"), *seconds = json_object_get(line, "seconds");
     assert_true(number(line, "step") == 2 && number(line, "substeps") == 12 && number(line, "substep") == 1e-4 && number(line, "contacts") == 22);
     assert_true(number(line, "hits") == 32 && number(line, "bisection_iterations") == 60 && number(line, "self_contacts") == 3 && number(line, "sweeps") == 7);
-    assert_true(number(line, "arrivals") == 17 && number(line, "beyond_bound") == 8);
+    assert_true(number(line, "arrivals") == 17 && number(line, "beyond_bound") == 8 && number(line, "inside") == 4);
     assert_true(number(line, "deformation") == 0.125 && number(line, "reversals") == 9 && number(line, "min_gap") == 1e-3);
     assert_true(json_is_true(json_object_get(line, "intersects")) && json_is_false(json_object_get(line, "too_near")));
     assert_true(number(energy, "kinetic") == 0.5 && number(energy, "gravitational") == -0.25 && number(energy, "elastic") == 0.125 && number(energy, "total") == 0.375);
@@ -97,7 +97,7 @@ static void test_lines_read_back_add_up(void **state)
     const cipc_massspring_totals *t = &read.massspring;
     assert_true(t->frames == 3 && t->intersecting.frames == 2 && t->intersecting.first_step == 2 && t->too_near.frames == 1 && t->too_near.first_step == 3);
     assert_true(t->substeps == 36 && t->hits == 96 && t->iterations == 180 && t->sweeps == 21 && t->reversals == 27 && t->max_self_contacts == 4);
-    assert_true(t->arrivals == 51 && t->beyond_bound == 24);
+    assert_true(t->arrivals == 51 && t->beyond_bound == 24 && t->max_inside == 5);
     assert_true(t->max_deformation == 0.1875 && t->frame_seconds == 1.5 && t->step_seconds == 0.75 && t->monitor_seconds == 0.375);
     assert_true(read.max_contacts == 23 && read.points_checked == 3 && read.monitored && read.converged && read.seconds == 1.125 && read.min_gap == 1e-3);
     write_lines(&file, 2, false);

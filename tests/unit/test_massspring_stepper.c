@@ -328,6 +328,26 @@ static void test_the_bound_leaves_no_node_inside(void **state)
     finish(&c);
 }
 
+/* A node in a body, as a caller may put it there, is told of: bisection begins inside and does not let it move. */
+static void test_nodes_inside_are_told(void **state)
+{
+    (void)state;
+    cloth c;
+    start(&c, 0.5, 0);
+    add_floor(&c, 0.3);
+    build(&c);
+    steps(&c, 1);
+    assert_int_equal(c.report.inside, 0);
+    c.options.deformation = 0;
+    c.options.frame = 1e-6; /* too short for the springs to pull it out */
+    cipc_massspring_destroy(c.integrator);
+    build(&c);
+    c.sheet.state->position[1] = c.sheet.state->position[4] = -0.01;
+    steps(&c, 1);
+    assert_int_equal(c.report.inside, 2);
+    finish(&c);
+}
+
 static void test_refusals(void **state)
 {
     (void)state;
@@ -350,7 +370,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_free_fall), cmocka_unit_test(test_long_steps), cmocka_unit_test(test_stiff_repulsion), cmocka_unit_test(test_endless_frames_are_refused), cmocka_unit_test(test_wind_is_in_the_step), cmocka_unit_test(test_wind_on_plastic_cloth), cmocka_unit_test(test_a_cut_way_is_looked_at_again),
         cmocka_unit_test(test_sliding_stops), cmocka_unit_test(test_rest_on_a_slope), cmocka_unit_test(test_cloth_on_a_ball),
-        cmocka_unit_test(test_the_bound_leaves_no_node_inside), cmocka_unit_test(test_refusals),
+        cmocka_unit_test(test_the_bound_leaves_no_node_inside), cmocka_unit_test(test_nodes_inside_are_told), cmocka_unit_test(test_refusals),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -247,7 +247,7 @@ static void test_fields_of_the_method_mass_spring(void **state)
     s.swept = false;
     s.energy_checks = 0;
     s.massspring = (cipc_massspring_totals){.frames = 9, .intersecting = {.frames = 2, .first_step = 5, .first = {.what = "edge 7 meets"}}, .substeps = 90, .hits = 8, .arrivals = 5, .iterations = 24, .sweeps = 7, .beyond_bound = 4,
-                                            .reversals = 6, .max_self_contacts = 3, .max_deformation = 0.0625, .frame_seconds = 3, .step_seconds = 2, .monitor_seconds = 4};
+                                            .reversals = 6, .max_self_contacts = 3, .max_inside = 2, .max_deformation = 0.0625, .frame_seconds = 3, .step_seconds = 2, .monitor_seconds = 4};
     json_t *o = written(&s);
     assert_string_equal(json_string_value(at(o, "method")), "mass-spring");
     assert_string_equal(json_string_value(at(o, "invariants.M1")), "counted: 2 of 9 frames intersect");
@@ -257,7 +257,7 @@ static void test_fields_of_the_method_mass_spring(void **state)
     assert_string_equal(json_string_value(at(o, "invariants.M8")), "holds");
     const struct { const char *key; int count; } counts[] = {{"monitors.counted.frames", 9}, {"monitors.counted.M1.frames", 2}, {"monitors.counted.M1.first.step", 5}, {"monitors.counted.M2.frames", 0},
                                                              {"totals.substeps", 90}, {"totals.hits", 8}, {"totals.arrivals", 5}, {"totals.bisection_iterations", 24}, {"totals.sweeps", 7}, {"totals.beyond_bound", 4}, {"totals.reversals", 6},
-                                                             {"extremes.max_self_contacts", 3}};
+                                                             {"extremes.max_self_contacts", 3}, {"extremes.max_inside", 2}};
     for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
         assert_int_equal(json_integer_value(at(o, counts[i].key)), counts[i].count);
     }
